@@ -1,0 +1,60 @@
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "generator/mesh.h"
+#include "scene/assets.h"
+#include "scene/scene.h"
+
+/// The one door to the generator: shapes by name, meshes by source.
+namespace farol::generator {
+
+/// One argument of a shape, for messages, help and the API.
+struct Argument {
+    std::string name;   ///< "slices"
+    bool integer;       ///< a count, else a length in the scene's units
+    double min, max;    ///< inclusive range
+    std::string help;
+};
+
+/// One registered shape. `required` arguments come first; the rest have defaults on demand.
+struct Shape {
+    std::string name;
+    std::string summary;             ///< its geometry in one sentence
+    std::vector<Argument> arguments;
+    std::size_t required;
+    bool takesFile;                  ///< the first word after the name is a profile or patch file
+};
+
+/// All shapes, in the order of the help.
+std::span<const Shape> shapes();
+
+/// The shape of that name or alias ("bezier" is patch), case-insensitive, or null.
+const Shape* findShape(const std::string& name);
+
+/// Makes the mesh of `words` ({"cone","1","2","4","3"}); files are read from `assets`, then from
+/// the built-ins (teapot.patch). Throws Error shape.unknown (with a did-you-mean),
+/// shape.argument (names the argument and its range), limit.triangles, asset.missing, mesh.*.
+Mesh generate(const std::vector<std::string>& words, const scene::Assets& assets,
+              scene::UvLayout uv = scene::UvLayout::face);
+
+/// The number of triangles `generate` would make, without making them (patch files are read).
+std::size_t countTriangles(const std::vector<std::string>& words, const scene::Assets& assets);
+
+/// Fills in Model::source of every model of the scene (entity included), and Texture::path,
+/// Background::path and Skybox::path: 1. a file of that name in the bundle; 2. a generator
+/// comment; 3. the name itself ("cone_1_2_4_3.3d"); built-ins last. Says where each model came
+/// from (severity info) and checks shape arguments. Adds errors for what cannot be found; does
+/// not throw.
+void resolve(scene::Scene& scene, const scene::Assets& assets, Diagnostics& diagnostics);
+
+/// The mesh of a resolved model. Throws as generate does.
+Mesh load(const scene::Model& model, const scene::Assets& assets);
+
+/// Upper bound on triangles of one mesh, counted before memory is taken for it.
+inline constexpr std::size_t kMaxTriangles = 5'000'000;
+
+}  // namespace farol::generator

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "render/options.h"
+#include "scene/assets.h"
+#include "scene/error.h"
+#include "scene/scene.h"
+
+namespace farol::render {
+
+/// One picture to make: a plain function of these bytes and options.
+struct Job {
+    std::string name = "scene.xml";  ///< of the document, for locations
+    std::string xml;                 ///< the document, or a mesh file's bytes (by name's ending)
+    std::shared_ptr<const scene::Assets> assets;
+    PictureOptions options;
+    bool strict = false;
+};
+
+/// What was drawn and what was skipped.
+struct Stats {
+    int instances = 0, culled = 0, drawCalls = 0, textures = 0, lights = 0;
+    std::int64_t triangles = 0;
+};
+
+/// Wall time of each stage, ms.
+struct StageTimes {
+    double parseMs = 0, geometryMs = 0, drawMs = 0, readbackMs = 0, encodeMs = 0;
+};
+
+struct Picture {
+    std::string bytes;        ///< encoded
+    std::string contentType;  ///< "image/png"
+    int width = 0, height = 0;
+    Diagnostics diagnostics;  ///< info and warnings
+    scene::Camera camera;     ///< the one used, for clients that orbit from it
+    Stats stats;
+    StageTimes times;
+};
+
+/// Facts about a scene without drawing it.
+struct SceneReport {
+    Diagnostics diagnostics;
+    std::string title, description;
+    int width = 512, height = 512;
+    bool animated = false;
+    scene::Camera camera;
+    std::int64_t triangles = 0;
+    int models = 0, lights = 0, textures = 0;
+    std::int64_t textureBytes = 0;  ///< of the files, undecoded
+};
+
+/// Draws scenes with one GL context of its own. Not shareable between threads: each thread makes
+/// its own. Caches change the time taken, never the bytes. Create throws std::runtime_error
+/// when there is no GL.
+class Renderer {
+  public:
+    Renderer();
+    ~Renderer();
+    Renderer(Renderer&&) noexcept;
+    Renderer& operator=(Renderer&&) noexcept;
+
+    /// Throws Error (option.*, xml.*, scene.*, asset.*, shape.*, mesh.*, image.*, limit.*).
+    Picture render(const Job& job);
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+/// Reads and resolves without GL; throws Error as Renderer::render does for what it can tell.
+SceneReport inspect(const Job& job);
+
+/// "OSMesa 22.3.6 ..." and our own version, for /version and ETags.
+std::string version();
+
+}  // namespace farol::render

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "scene/assets.h"
+#include "scene/scene.h"
+
+namespace farol::scene {
+
+/// Bounds on a document, checked before memory is taken for its content.
+struct ReadLimits {
+    std::size_t bytes = 1 << 20;
+    int depth = 64;
+    int elements = 50'000;
+    int diagnostics = 50;
+};
+
+struct ReadOptions {
+    std::string name = "scene.xml";  ///< for locations
+    bool strict = false;             ///< warnings become errors
+    ReadLimits limits;
+};
+
+struct ReadResult {
+    Scene scene;
+    Diagnostics diagnostics;  ///< info and warnings, in document order
+};
+
+/// Reads a scene of any dialect, repairing what real files get wrong (see docs/scene-language.md).
+/// `assets` serves includes and entities only. Throws Error with all diagnostics found when the
+/// document is not readable XML (xml.*), is not a scene (scene.*) or is over a limit (limit.*).
+ReadResult read(std::string_view xml, const ReadOptions& options, const Assets& assets);
+
+}  // namespace farol::scene

@@ -1,0 +1,163 @@
+#pragma once
+
+#include <glm/glm.hpp>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "scene/error.h"
+
+/// The scene model that every dialect is read into. Right-handed, +Y up; lengths in the scene's
+/// own units; colours are display values 0..1 (no sRGB decoding: the field's pictures are made
+/// so). Angles are in degrees where the name says so. All numbers are finite.
+namespace farol::scene {
+
+/// Which of the field's dialects the document is written in (docs/scene-language.md).
+enum class Dialect { course, engine2017, engine2020 };
+
+/// A colour, or (cycles) a saturated hue that turns with the time: see colorAt in animation.h.
+struct Color {
+    glm::vec3 rgb{0.0F};
+    bool cycles = false;
+    bool operator==(const Color&) const = default;
+};
+
+/// Shininess in 0..128 by the dialects; larger values are kept and honoured.
+struct Material {
+    Color diffuse{glm::vec3(200.0F / 255.0F)};
+    Color ambient{glm::vec3(50.0F / 255.0F)};
+    Color specular{};
+    Color emissive{};
+    float shininess = 0.0F;
+    bool operator==(const Material&) const = default;
+};
+
+enum class LightType { point, directional, spot };
+/// What the light's position and direction are relative to: its group (world) or the viewer.
+enum class LightSpace { world, camera };
+
+struct Light {
+    LightType type = LightType::point;
+    LightSpace space = LightSpace::world;
+    glm::dvec3 position{0.0};       ///< point and spot
+    glm::dvec3 direction{0.0};      ///< directional: towards the light; spot: where it shines
+    double cutoffDeg = 180.0;       ///< spot: half angle, 0..90, or 180: no cone
+    double exponent = 0.0;          ///< spot: falls off as cos^exponent
+    double constant = 1.0, linear = 0.0, quadratic = 0.0;  ///< attenuation, point and spot
+    Color diffuse{glm::vec3(1.0F)}, ambient{}, specular{glm::vec3(1.0F)};
+    Location where;
+};
+
+struct Translate { glm::dvec3 offset{0.0}; };
+/// Along the closed Catmull-Rom curve through the points, one lap in `seconds` (> 0).
+struct FollowCurve { double seconds = 1.0; bool align = false; std::vector<glm::dvec3> points; };
+struct Rotate { double angleDeg = 0.0; glm::dvec3 axis{0.0, 1.0, 0.0}; };
+/// One turn about the axis in `seconds` (not 0; negative turns the other way).
+struct Spin { double seconds = 1.0; glm::dvec3 axis{0.0, 1.0, 0.0}; };
+struct Scale { glm::dvec3 factors{1.0}; };
+using Transform = std::variant<Translate, FollowCurve, Rotate, Spin, Scale>;
+
+enum class Filter { nearest, linear, mipmap, anisotropic };
+enum class Mapping { mesh, sphere, texgenObject, texgenEye };
+
+/// A checker made by the renderer: `columns` x `rows` fields.
+struct Chess {
+    int columns = 8, rows = 8;
+    glm::vec3 first{1.0F}, second{0.0F};
+    bool operator==(const Chess&) const = default;
+};
+
+struct Texture {
+    std::string file;            ///< as written; empty for a chess texture
+    std::string path;            ///< the asset meant by it, set by resolveAssets
+    std::optional<Chess> chess;
+    Mapping mapping = Mapping::mesh;
+    glm::dvec4 planeS{1, 0, 0, 0}, planeT{0, 1, 0, 0};  ///< texgen planes, GL semantics
+    std::optional<Filter> filter;
+    Location where;
+};
+
+/// Where a model's triangles come from. Filled by generator::resolveModels.
+struct ModelSource {
+    enum class Kind { none, file, shape } kind = Kind::none;
+    std::string path;                ///< file: the asset's path. shape: a profile's or patch's path, else empty
+    std::vector<std::string> words;  ///< shape: its name, then its arguments: {"cone","1","2","4","3"}
+    bool operator==(const ModelSource&) const = default;
+};
+
+enum class UvLayout { face, atlas, layout2017 };
+
+struct Model {
+    std::string file;                ///< as written; may be empty when a command makes it
+    std::string command;             ///< "cone 1 2 4 3" or "revolution peon.ply 32"; may be empty
+    std::optional<int> revolve;      ///< number of copies of the profile `file`
+    UvLayout uv = UvLayout::face;
+    ModelSource source;
+    std::optional<Material> material;
+    std::optional<Texture> texture;
+    bool twoSided = false;
+    std::string id, name;
+    Location where;
+};
+
+/// N copies of the group's content at seeded random places of a ring about Y (2017 dialect).
+struct Scatter {
+    int count = 0;
+    double radiusMin = 0.0, radiusMax = 0.0, yMin = 0.0, yMax = 0.0;
+};
+
+struct Group {
+    std::vector<Transform> transforms;  ///< each multiplies on the right, as OpenGL's stack does
+    std::vector<Light> lights;          ///< light this group and what is below it only
+    std::vector<Model> models;
+    std::vector<Group> groups;
+    std::optional<Scatter> scatter;
+    std::string name;
+    Location where;
+};
+
+struct Camera {
+    glm::dvec3 eye{0.0, 0.0, 5.0}, target{0.0}, up{0.0, 1.0, 0.0};
+    double fovDeg = 60.0;  ///< vertical, 0 < fov < 180
+    double near = 1.0, far = 1000.0;
+    Location where;
+};
+
+struct Window { int width = 512, height = 512; };
+
+enum class Shading { points, wireframe, solid, chess, flat, gouraud, phong };
+enum class Viewer { infinite, local };
+enum class Specular { single, separate };
+
+struct Background { std::optional<glm::vec3> color; std::string file, path; Location where; };
+struct Skybox { std::string file, path; double width = 500.0; Location where; };
+
+/// What a scene asks of its picture; a request's own options win.
+struct RenderSettings {
+    std::optional<Shading> shading;
+    std::optional<int> samples;
+    std::optional<bool> axes;
+    std::optional<Viewer> viewer;
+    std::optional<Specular> specular;
+};
+
+struct Scene {
+    Dialect dialect = Dialect::course;
+    std::string title, description;
+    std::optional<Window> window;
+    std::optional<Camera> camera;
+    std::vector<Light> lights;
+    std::vector<Group> groups;
+    RenderSettings settings;
+    Background background;
+    std::optional<Skybox> skybox;
+    std::shared_ptr<Scene> entity;   ///< drawn in eye space before the third-person camera
+    /// `generator cone 1 2 4 3 cone_1_2_4_3.3d` comments: file name -> words after `generator`,
+    /// without the file name; the shape's name may be missing or an alias.
+    std::map<std::string, std::vector<std::string>> generatorComments;
+};
+
+}  // namespace farol::scene

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <glm/glm.hpp>
 #include <optional>
 #include <span>
@@ -14,10 +15,13 @@ namespace farol::render {
 enum class Format { png, jpeg, webp };
 enum class Layer { color, depth, normal, id };
 
+inline constexpr int kMaxSide = 4096;                 ///< px
+inline constexpr std::int64_t kMaxPixels = 16'777'216;  ///< of one picture
+
 /// The picture options of the command line and of the service; what is unset is the scene's own
 /// choice, else the default named in optionSpecs().
 struct PictureOptions {
-    std::optional<int> width, height;                       ///< 1..4096 px, at most 16 MP
+    std::optional<int> width, height;                       ///< 1..4096 px, at most kMaxPixels
     std::optional<glm::dvec3> eye, target, up;
     std::optional<double> azimuthDeg, elevationDeg, distance;  ///< an orbit about target
     std::optional<double> fovDeg, near, far;
@@ -34,6 +38,7 @@ struct PictureOptions {
     int quality = 90;                                       ///< jpeg and webp, 1..100
     Layer layer = Layer::color;
     std::optional<scene::Viewer> viewer;
+    std::optional<scene::Specular> specular;
     double scale = 1.0;                                     ///< of width and height, 0.1..1
 };
 

@@ -150,6 +150,9 @@ struct Scene {
     std::optional<Window> window;
     std::optional<Camera> camera;
     std::vector<Light> lights;
+    /// Light on everything, by material ambient: 1 in the course dialect, OpenGL's 0.2 in the
+    /// 2017 and 2020 ones.
+    glm::vec3 globalAmbient{1.0F};
     std::vector<Group> groups;
     RenderSettings settings;
     Background background;

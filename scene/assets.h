@@ -23,6 +23,8 @@ class Assets {
     virtual std::string version(const std::string& path) const = 0;
 
     static constexpr std::size_t kMaxListed = 10'000;
+    /// Larger files on disk are refused by `read`: Error limit.file-bytes.
+    static constexpr std::size_t kMaxFileBytes = std::size_t{256} << 20U;
 };
 
 /// Files in memory: the parts of an upload.
@@ -57,7 +59,7 @@ bool isSafePath(const std::string& path);
 
 /// Finds the file that a scene means by `path`: as written, else the one file of the same base
 /// name (case-sensitive, then not), with a warning `asset.found-elsewhere` at `where`.
-/// Returns nothing when there is none or more than one.
+/// Returns nothing when there is none or, with a warning `asset.ambiguous`, more than one.
 std::optional<std::string> locate(const Assets& assets, const std::string& path,
                                   const Location& where, Diagnostics& diagnostics);
 

@@ -91,9 +91,10 @@ constexpr std::array<std::pair<const char*, scene::Filter>, 4> kFilters{
      {"anisotropic", scene::Filter::anisotropic}}};
 constexpr std::array<std::pair<const char*, Format>, 3> kFormats{
     {{"png", Format::png}, {"jpeg", Format::jpeg}, {"webp", Format::webp}}};
-constexpr std::array<std::pair<const char*, Layer>, 4> kLayers{
-    {{"color", Layer::color}, {"depth", Layer::depth}, {"normal", Layer::normal},
-     {"id", Layer::id}}};
+constexpr std::array<std::pair<const char*, Layer>, 4> kLayers{{{"color", Layer::color},
+                                                                {"depth", Layer::depth},
+                                                                {"normal", Layer::normal},
+                                                                {"id", Layer::id}}};
 constexpr std::array<std::pair<const char*, scene::Viewer>, 2> kViewers{
     {{"infinite", scene::Viewer::infinite}, {"local", scene::Viewer::local}}};
 
@@ -116,9 +117,7 @@ const std::array<OptionSpec, 28> kSpecs{{
          o.azimuthDeg = parseNumber("azimuth", v, -36000, 36000, "-36000..36000 degrees");
      }},
     {"elevation", "-90..90 degrees", "orbit about the target: latitude, 90 is from above",
-     [](O& o, S& v) {
-         o.elevationDeg = parseNumber("elevation", v, -90, 90, "-90..90 degrees");
-     }},
+     [](O& o, S& v) { o.elevationDeg = parseNumber("elevation", v, -90, 90, "-90..90 degrees"); }},
     {"distance", "1e-6..1e12", "orbit about the target: distance, world units",
      [](O& o, S& v) { o.distance = parseNumber("distance", v, 1e-6, kFar, "1e-6..1e12"); }},
     {"fov", "0.01..179 degrees", "vertical field of view",
@@ -173,10 +172,10 @@ const std::array<OptionSpec, 28> kSpecs{{
      [](O& o, S& v) { o.viewer = parseName("viewer", v, kViewers); }},
     {"specular", "single|separate", "highlights under the texture, or on top of it",
      [](O& o, S& v) {
-         o.specular = parseName("specular", v,
-                                std::array<std::pair<const char*, scene::Specular>, 2>{
-                                    {{"single", scene::Specular::single},
-                                     {"separate", scene::Specular::separate}}});
+         o.specular = parseName(
+             "specular", v,
+             std::array<std::pair<const char*, scene::Specular>, 2>{
+                 {{"single", scene::Specular::single}, {"separate", scene::Specular::separate}}});
      }},
     {"scale", "0.1..1", "of width and height, for fast frames; default 1",
      [](O& o, S& v) { o.scale = parseNumber("scale", v, 0.1, 1, "0.1..1"); }},
@@ -193,8 +192,9 @@ void applyOption(PictureOptions& options, const std::string& name, const std::st
     std::vector<std::string> names;
     for (const OptionSpec& one : kSpecs) names.push_back(one.name);
     const std::string hint = scene::didYouMean(name, names);
-    throw Error("option.unknown", "there is no picture option '" + name.substr(0, 64) + "'" +
-                                      (hint.empty() ? "" : "; did you mean '" + hint + "'?"),
+    throw Error("option.unknown",
+                "there is no picture option '" + name.substr(0, 64) + "'" +
+                    (hint.empty() ? "" : "; did you mean '" + hint + "'?"),
                 {}, name.substr(0, 64));
 }
 

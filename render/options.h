@@ -15,31 +15,32 @@ namespace farol::render {
 enum class Format { png, jpeg, webp };
 enum class Layer { color, depth, normal, id };
 
-inline constexpr int kMaxSide = 4096;                 ///< px
+inline constexpr int kMaxSide = 4096;                   ///< px
 inline constexpr std::int64_t kMaxPixels = 16'777'216;  ///< of one picture
 
 /// The picture options of the command line and of the service; what is unset is the scene's own
 /// choice, else the default named in optionSpecs().
 struct PictureOptions {
-    std::optional<int> width, height;                       ///< 1..4096 px, at most kMaxPixels
+    std::optional<int> width, height;  ///< 1..4096 px, at most kMaxPixels
     std::optional<glm::dvec3> eye, target, up;
     std::optional<double> azimuthDeg, elevationDeg, distance;  ///< an orbit about target
     std::optional<double> fovDeg, near, far;
     double timeS = 0.0;
     std::optional<scene::Shading> shading;
-    std::optional<int> samples;                             ///< 1, 2, 4, 8, 16; default 4
+    std::optional<int> samples;  ///< 1, 2, 4, 8, 16; default 4
     std::optional<scene::Filter> filter;
-    double errorPx = 0.25;                                  ///< tessellation on demand
+    double errorPx = 0.25;  ///< tessellation on demand
     std::optional<bool> axes;
     bool curves = false, focus = false, debug = false;
-    std::optional<std::string> background;  ///< "#rrggbb", "r,g,b", a name, "transparent" or an asset
+    std::optional<std::string>
+        background;  ///< "#rrggbb", "r,g,b", a name, "transparent" or an asset
     std::optional<std::string> entity;
     Format format = Format::png;
-    int quality = 90;                                       ///< jpeg and webp, 1..100
+    int quality = 90;  ///< jpeg and webp, 1..100
     Layer layer = Layer::color;
     std::optional<scene::Viewer> viewer;
     std::optional<scene::Specular> specular;
-    double scale = 1.0;                                     ///< of width and height, 0.1..1
+    double scale = 1.0;  ///< of width and height, 0.1..1
 };
 
 /// One option as flags and query parameters know it.

@@ -1,0 +1,95 @@
+#include "render/camera.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace farol::render {
+namespace {
+
+/// Sees all of the box from front right above, near and far close round it.
+scene::Camera framing(const Box& bounds, double aspect) {
+    scene::Camera camera;
+    const glm::dvec3 center = bounds.empty() ? glm::dvec3(0.0) : (bounds.min + bounds.max) * 0.5;
+    double radius = bounds.empty() ? 1.0 : glm::length(bounds.max - bounds.min) * 0.5;
+    if (!(radius > 1e-9)) radius = 1.0;
+    const double halfUp = glm::radians(camera.fovDeg) / 2.0;
+    const double halfAcross = std::atan(std::tan(halfUp) * aspect);
+    const double distance = 1.05 * radius / std::sin(std::min(halfUp, halfAcross));
+    camera.target = center;
+    camera.eye = center + distance * glm::normalize(glm::dvec3(0.5, 0.45, 1.0));
+    camera.near = std::max(distance - 1.1 * radius, distance * 1e-3);
+    camera.far = distance + 2.0 * radius;
+    return camera;
+}
+
+[[noreturn]] void fail(const std::string& message, const std::string& field) {
+    throw Error("option.camera", message, {}, field);
+}
+
+}  // namespace
+
+scene::Camera chooseCamera(const scene::Scene& scene, const PictureOptions& options,
+                           const Box& bounds, double aspect) {
+    scene::Camera camera = scene.camera ? *scene.camera : framing(bounds, aspect);
+    if (options.target) camera.target = *options.target;
+    if (options.up) camera.up = *options.up;
+    if (options.fovDeg) camera.fovDeg = *options.fovDeg;
+    if (options.near) camera.near = *options.near;
+    if (options.far) camera.far = *options.far;
+    if (options.eye) {
+        if (options.azimuthDeg || options.elevationDeg || options.distance)
+            fail("give either eye or azimuth, elevation and distance, not both", "eye");
+        camera.eye = *options.eye;
+    } else if (options.azimuthDeg || options.elevationDeg || options.distance) {
+        // What is left out is the scene camera's own.
+        const glm::dvec3 arm = camera.eye - camera.target;
+        const double length = glm::length(arm);
+        const double distance = options.distance.value_or(length);
+        const double azimuth =
+            options.azimuthDeg ? glm::radians(*options.azimuthDeg) : std::atan2(arm.x, arm.z);
+        const double elevation = options.elevationDeg ? glm::radians(*options.elevationDeg)
+                                                      : std::atan2(arm.y, std::hypot(arm.x, arm.z));
+        camera.eye = camera.target + distance * glm::dvec3(std::cos(elevation) * std::sin(azimuth),
+                                                           std::sin(elevation),
+                                                           std::cos(elevation) * std::cos(azimuth));
+    }
+    const glm::dvec3 view = camera.target - camera.eye;
+    const double scale = std::max({1e-30, glm::length(camera.target), glm::length(camera.eye)});
+    if (!(glm::length(view) > 1e-12 * scale))
+        fail("the camera's eye and target are the same point; move one of them", "eye");
+    if (!(camera.far > camera.near))
+        fail("far must be more than near (" + std::to_string(camera.near) + ")", "far");
+    return camera;
+}
+
+glm::dmat3 viewRotation(const scene::Camera& camera) {
+    const glm::dvec3 forward = glm::normalize(camera.target - camera.eye);
+    glm::dvec3 up = camera.up;
+    const double size = glm::length(up);
+    if (!(size > 0.0) || glm::length(glm::cross(forward, up)) <= 1e-9 * size) {
+        const glm::dvec3 along = glm::abs(forward);
+        up = along.x <= along.y && along.x <= along.z ? glm::dvec3(1, 0, 0)
+             : along.z <= along.y                     ? glm::dvec3(0, 0, 1)
+                                                      : glm::dvec3(0, 1, 0);
+        // Straight up or down: -Z up is what a map shows.
+        if (along.y > along.x && along.y > along.z) up = glm::dvec3(0, 0, -1);
+    }
+    const glm::dvec3 right = glm::normalize(glm::cross(forward, up));
+    return glm::transpose(glm::dmat3(right, glm::cross(right, forward), -forward));
+}
+
+glm::dmat4 clipFromView(const scene::Camera& camera, double aspect, const glm::dvec2& offset) {
+    const double f = 1.0 / std::tan(glm::radians(camera.fovDeg) / 2.0);
+    const double range = camera.far - camera.near;
+    glm::dmat4 m(0.0);
+    m[0][0] = f / aspect;
+    m[1][1] = f;
+    m[2][0] = offset.x;
+    m[2][1] = offset.y;
+    m[2][2] = camera.near / range;
+    m[2][3] = -1.0;
+    m[3][2] = camera.near * camera.far / range;
+    return m;
+}
+
+}  // namespace farol::render

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+
+#include "render/image.h"
+#include "render/options.h"
+
+namespace farol::render {
+
+/// PNG, 8 bits: RGB when every alpha is 255, else RGBA. Filter Sub, zlib level 1: measured best in
+/// time and no larger than the default on rendered pictures (docs/accuracy.md).
+std::string encodePng(const Image& image);
+/// Baseline JPEG 4:4:4 on black; quality 1..100. For fast frames.
+std::string encodeJpeg(const Image& image, int quality);
+/// Lossy WebP with alpha; quality 1..100.
+std::string encodeWebp(const Image& image, int quality);
+
+std::string encode(const Image& image, Format format, int quality);
+/// "image/png", "image/jpeg", "image/webp".
+const char* contentType(Format format);
+
+}  // namespace farol::render

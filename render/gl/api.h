@@ -1,0 +1,94 @@
+#pragma once
+
+#include <GL/glcorearb.h>
+
+/// The GL entry points that the renderer uses. libOSMesa exports those of GL 1 and 2 only, so all
+/// are asked for by name. A table belongs to a context: no globals.
+namespace farol::render::gl {
+
+// name, type of pointer
+#define FAROL_GL_FUNCTIONS(X)                                                  \
+    X(ActiveTexture, PFNGLACTIVETEXTUREPROC)                                   \
+    X(AttachShader, PFNGLATTACHSHADERPROC)                                     \
+    X(BindAttribLocation, PFNGLBINDATTRIBLOCATIONPROC)                         \
+    X(BindBuffer, PFNGLBINDBUFFERPROC)                                         \
+    X(BindBufferBase, PFNGLBINDBUFFERBASEPROC)                                 \
+    X(BindFramebuffer, PFNGLBINDFRAMEBUFFERPROC)                               \
+    X(BindRenderbuffer, PFNGLBINDRENDERBUFFERPROC)                             \
+    X(BindTexture, PFNGLBINDTEXTUREPROC)                                       \
+    X(BindVertexArray, PFNGLBINDVERTEXARRAYPROC)                               \
+    X(BlitFramebuffer, PFNGLBLITFRAMEBUFFERPROC)                               \
+    X(BufferData, PFNGLBUFFERDATAPROC)                                         \
+    X(CheckFramebufferStatus, PFNGLCHECKFRAMEBUFFERSTATUSPROC)                 \
+    X(Clear, PFNGLCLEARPROC)                                                   \
+    X(ClearBufferfv, PFNGLCLEARBUFFERFVPROC)                                   \
+    X(ClipControl, PFNGLCLIPCONTROLPROC)                                       \
+    X(CompileShader, PFNGLCOMPILESHADERPROC)                                   \
+    X(CreateProgram, PFNGLCREATEPROGRAMPROC)                                   \
+    X(CreateShader, PFNGLCREATESHADERPROC)                                     \
+    X(CullFace, PFNGLCULLFACEPROC)                                             \
+    X(DeleteBuffers, PFNGLDELETEBUFFERSPROC)                                   \
+    X(DeleteFramebuffers, PFNGLDELETEFRAMEBUFFERSPROC)                         \
+    X(DeleteProgram, PFNGLDELETEPROGRAMPROC)                                   \
+    X(DeleteRenderbuffers, PFNGLDELETERENDERBUFFERSPROC)                       \
+    X(DeleteShader, PFNGLDELETESHADERPROC)                                     \
+    X(DeleteTextures, PFNGLDELETETEXTURESPROC)                                 \
+    X(DeleteVertexArrays, PFNGLDELETEVERTEXARRAYSPROC)                         \
+    X(DepthFunc, PFNGLDEPTHFUNCPROC)                                           \
+    X(DepthMask, PFNGLDEPTHMASKPROC)                                           \
+    X(Disable, PFNGLDISABLEPROC)                                               \
+    X(DrawArrays, PFNGLDRAWARRAYSPROC)                                         \
+    X(DrawElements, PFNGLDRAWELEMENTSPROC)                                     \
+    X(Enable, PFNGLENABLEPROC)                                                 \
+    X(EnableVertexAttribArray, PFNGLENABLEVERTEXATTRIBARRAYPROC)               \
+    X(FramebufferRenderbuffer, PFNGLFRAMEBUFFERRENDERBUFFERPROC)               \
+    X(FrontFace, PFNGLFRONTFACEPROC)                                           \
+    X(GenBuffers, PFNGLGENBUFFERSPROC)                                         \
+    X(GenFramebuffers, PFNGLGENFRAMEBUFFERSPROC)                               \
+    X(GenRenderbuffers, PFNGLGENRENDERBUFFERSPROC)                             \
+    X(GenTextures, PFNGLGENTEXTURESPROC)                                       \
+    X(GenVertexArrays, PFNGLGENVERTEXARRAYSPROC)                               \
+    X(GetError, PFNGLGETERRORPROC)                                             \
+    X(GetIntegerv, PFNGLGETINTEGERVPROC)                                       \
+    X(GetFloatv, PFNGLGETFLOATVPROC)                                           \
+    X(GetProgramInfoLog, PFNGLGETPROGRAMINFOLOGPROC)                           \
+    X(GetProgramiv, PFNGLGETPROGRAMIVPROC)                                     \
+    X(GetShaderInfoLog, PFNGLGETSHADERINFOLOGPROC)                             \
+    X(GetShaderiv, PFNGLGETSHADERIVPROC)                                       \
+    X(GetString, PFNGLGETSTRINGPROC)                                           \
+    X(GetUniformLocation, PFNGLGETUNIFORMLOCATIONPROC)                         \
+    X(LinkProgram, PFNGLLINKPROGRAMPROC)                                       \
+    X(PixelStorei, PFNGLPIXELSTOREIPROC)                                       \
+    X(PointSize, PFNGLPOINTSIZEPROC)                                           \
+    X(PolygonMode, PFNGLPOLYGONMODEPROC)                                       \
+    X(PolygonOffset, PFNGLPOLYGONOFFSETPROC)                                   \
+    X(ReadPixels, PFNGLREADPIXELSPROC)                                         \
+    X(RenderbufferStorageMultisample, PFNGLRENDERBUFFERSTORAGEMULTISAMPLEPROC) \
+    X(ShaderSource, PFNGLSHADERSOURCEPROC)                                     \
+    X(TexImage2D, PFNGLTEXIMAGE2DPROC)                                         \
+    X(TexParameterf, PFNGLTEXPARAMETERFPROC)                                   \
+    X(TexParameteri, PFNGLTEXPARAMETERIPROC)                                   \
+    X(Uniform1f, PFNGLUNIFORM1FPROC)                                           \
+    X(Uniform1i, PFNGLUNIFORM1IPROC)                                           \
+    X(Uniform2f, PFNGLUNIFORM2FPROC)                                           \
+    X(Uniform3fv, PFNGLUNIFORM3FVPROC)                                         \
+    X(Uniform4fv, PFNGLUNIFORM4FVPROC)                                         \
+    X(UniformMatrix3fv, PFNGLUNIFORMMATRIX3FVPROC)                             \
+    X(UniformMatrix4fv, PFNGLUNIFORMMATRIX4FVPROC)                             \
+    X(UseProgram, PFNGLUSEPROGRAMPROC)                                         \
+    X(VertexAttrib3fv, PFNGLVERTEXATTRIB3FVPROC)                               \
+    X(VertexAttribPointer, PFNGLVERTEXATTRIBPOINTERPROC)                       \
+    X(Viewport, PFNGLVIEWPORTPROC)
+
+struct Api {
+#define FAROL_GL_MEMBER(name, type) type name = nullptr;
+    FAROL_GL_FUNCTIONS(FAROL_GL_MEMBER)
+#undef FAROL_GL_MEMBER
+};
+
+using ProcLoader = void (*(*)(const char* name))();
+
+/// Fills the table. Throws std::runtime_error that names the first entry point missing.
+Api loadApi(ProcLoader loader);
+
+}  // namespace farol::render::gl

@@ -1,0 +1,100 @@
+#include "render/gl/mesh_store.h"
+
+#include <vector>
+
+namespace farol::render::gl {
+namespace {
+
+struct Vertex {
+    glm::vec3 position{0.0F};
+    glm::vec3 normal{0.0F};
+    glm::vec2 uv{0.0F};
+};
+struct FlatVertex {
+    Vertex vertex;
+    glm::vec3 center{0.0F};
+};
+
+Vertex vertexOf(const generator::Mesh& mesh, std::uint32_t index) {
+    Vertex vertex{mesh.positions[index], glm::vec3(0.0F), glm::vec2(0.0F)};
+    if (!mesh.normals.empty()) vertex.normal = mesh.normals[index];
+    if (!mesh.uvs.empty()) vertex.uv = mesh.uvs[index];
+    return vertex;
+}
+
+const void* offset(std::size_t bytes) { return reinterpret_cast<const void*>(bytes); }
+
+template <typename T>
+void fill(const Api& api, const Buffer& buffer, GLenum target, const std::vector<T>& values) {
+    api.BindBuffer(target, buffer.name());
+    api.BufferData(target, static_cast<GLsizeiptr>(values.size() * sizeof(T)), values.data(),
+                   GL_STATIC_DRAW);
+}
+
+void attribute(const Api& api, GLuint location, GLint size, std::size_t stride, std::size_t at) {
+    api.EnableVertexAttribArray(location);
+    api.VertexAttribPointer(location, size, GL_FLOAT, GL_FALSE, static_cast<GLsizei>(stride),
+                            offset(at));
+}
+
+GpuMesh upload(const Api& api, const generator::Mesh& mesh, bool flat) {
+    GpuMesh gpu;
+    gpu.array = VertexArray(api);
+    gpu.vertices = Buffer(api);
+    gpu.count = static_cast<GLsizei>(mesh.indices.size());
+    gpu.indexed = !flat;
+    api.BindVertexArray(gpu.array.name());
+    const std::size_t stride = flat ? sizeof(FlatVertex) : sizeof(Vertex);
+    if (flat) {
+        std::vector<FlatVertex> vertices;
+        vertices.reserve(mesh.indices.size());
+        for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+            Vertex corners[3];
+            for (std::size_t c = 0; c < 3; ++c) corners[c] = vertexOf(mesh, mesh.indices[i + c]);
+            const glm::dvec3 a(corners[0].position), b(corners[1].position), c(corners[2].position);
+            const glm::dvec3 cross = glm::cross(b - a, c - a);
+            const double size = glm::length(cross);
+            for (Vertex& corner : corners) {
+                if (size > 0.0) corner.normal = glm::vec3(cross / size);
+                vertices.push_back({corner, glm::vec3((a + b + c) / 3.0)});
+            }
+        }
+        fill(api, gpu.vertices, GL_ARRAY_BUFFER, vertices);
+        gpu.bytes = vertices.size() * stride;
+        attribute(api, 3, 3, stride, offsetof(FlatVertex, center));
+    } else {
+        std::vector<Vertex> vertices;
+        vertices.reserve(mesh.positions.size());
+        for (std::uint32_t i = 0; i < mesh.positions.size(); ++i)
+            vertices.push_back(vertexOf(mesh, i));
+        fill(api, gpu.vertices, GL_ARRAY_BUFFER, vertices);
+        gpu.indices = Buffer(api);
+        fill(api, gpu.indices, GL_ELEMENT_ARRAY_BUFFER, mesh.indices);
+        gpu.bytes = vertices.size() * stride + mesh.indices.size() * sizeof(std::uint32_t);
+    }
+    attribute(api, 0, 3, stride, offsetof(Vertex, position));
+    attribute(api, 1, 3, stride, offsetof(Vertex, normal));
+    attribute(api, 2, 2, stride, offsetof(Vertex, uv));
+    return gpu;
+}
+
+}  // namespace
+
+const GpuMesh& MeshStore::get(const MeshData& data, bool flat) {
+    const Key key{data.id, flat};
+    if (const auto found = byKey_.find(key); found != byKey_.end()) {
+        entries_.splice(entries_.begin(), entries_, found->second);
+        return found->second->mesh;
+    }
+    entries_.push_front({key, upload(api_, data.mesh, flat)});
+    byKey_[key] = entries_.begin();
+    bytes_ += entries_.front().mesh.bytes;
+    while (bytes_ > maxBytes_ && entries_.size() > 1) {
+        bytes_ -= entries_.back().mesh.bytes;
+        byKey_.erase(entries_.back().key);
+        entries_.pop_back();
+    }
+    return entries_.front().mesh;
+}
+
+}  // namespace farol::render::gl

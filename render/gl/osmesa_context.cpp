@@ -1,0 +1,65 @@
+#include "render/gl/context.h"
+// osmesa.h brings the old gl.h, which must come after glcorearb.h.
+#include <GL/osmesa.h>
+
+#include <array>
+#include <stdexcept>
+
+namespace farol::render::gl {
+namespace {
+
+class OsMesaContext final : public Context {
+  public:
+    OsMesaContext() {
+        const std::array<int, 13> attributes{OSMESA_FORMAT,
+                                             OSMESA_RGBA,
+                                             OSMESA_DEPTH_BITS,
+                                             0,
+                                             OSMESA_PROFILE,
+                                             OSMESA_CORE_PROFILE,
+                                             OSMESA_CONTEXT_MAJOR_VERSION,
+                                             4,
+                                             OSMESA_CONTEXT_MINOR_VERSION,
+                                             5,
+                                             0,
+                                             0,
+                                             0};
+        context_ = OSMesaCreateContextAttribs(attributes.data(), nullptr);
+        if (!context_) throw std::runtime_error("OSMesa gives no GL 4.5 core context");
+        try {
+            makeCurrent();
+            api_ = loadApi(OSMesaGetProcAddress);
+        } catch (...) {
+            OSMesaDestroyContext(context_);
+            throw;
+        }
+        const auto text = [&](GLenum name) {
+            const GLubyte* value = api_.GetString(name);
+            return value ? std::string(reinterpret_cast<const char*>(value)) : std::string("?");
+        };
+        description_ = text(GL_RENDERER) + ", " + text(GL_VERSION);
+    }
+    ~OsMesaContext() override { OSMesaDestroyContext(context_); }
+    OsMesaContext(const OsMesaContext&) = delete;
+    OsMesaContext& operator=(const OsMesaContext&) = delete;
+
+    void makeCurrent() override {
+        // All drawing goes to framebuffer objects: the window buffer is one pixel.
+        if (!OSMesaMakeCurrent(context_, pixel_.data(), GL_UNSIGNED_BYTE, 1, 1))
+            throw std::runtime_error("OSMesa cannot make its context current");
+    }
+    const Api& api() const override { return api_; }
+    const std::string& description() const override { return description_; }
+
+  private:
+    OSMesaContext context_ = nullptr;
+    std::array<unsigned char, 4> pixel_{};
+    Api api_;
+    std::string description_;
+};
+
+}  // namespace
+
+std::unique_ptr<Context> createOsMesaContext() { return std::make_unique<OsMesaContext>(); }
+
+}  // namespace farol::render::gl

@@ -1,0 +1,324 @@
+#include "render/gl/painter.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <glm/gtc/type_ptr.hpp>
+#include <optional>
+
+#include "render/camera.h"
+#include "render/gl/mesh_store.h"
+#include "render/gl/program.h"
+#include "render/gl/target.h"
+#include "render/gl/texture_store.h"
+
+namespace farol::render::gl {
+namespace {
+
+constexpr std::size_t kMeshBytes = std::size_t{256} << 20;
+constexpr std::size_t kTextureBytes = std::size_t{384} << 20;
+
+double sinceMs(std::chrono::steady_clock::time_point begin) {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin)
+        .count();
+}
+
+/// How many samples GL takes at once and how many jittered passes make up the rest.
+struct Sampling {
+    int samples, passes;
+};
+
+Sampling sampling(int wanted, int most) {
+    if (wanted <= 1 || most <= 1) return {1, std::max(1, wanted)};
+    return {most, std::max(1, wanted / most)};
+}
+
+/// Offsets of the passes within a pixel, -0.5..0.5: the centres of the cells of a rotated grid.
+glm::dvec2 passOffset(int pass, int passes) {
+    if (passes == 1) return glm::dvec2(0.0);
+    constexpr std::array<glm::dvec2, 4> kQuarter{
+        {{-0.125, -0.125}, {0.125, 0.125}, {0.125, -0.125}, {-0.125, 0.125}}};
+    if (passes <= 4) return kQuarter[static_cast<std::size_t>(pass)];
+    // Without multisampling: Halton points of bases 2 and 3.
+    const auto halton = [](int index, int base) {
+        double value = 0.0;
+        double fraction = 1.0;
+        for (int i = index; i > 0; i /= base) {
+            fraction /= base;
+            value += fraction * (i % base);
+        }
+        return value;
+    };
+    return {halton(pass + 1, 2) - 0.5, halton(pass + 1, 3) - 0.5};
+}
+
+/// Alpha was blended towards a transparent black: divides it out again.
+void unpremultiply(Image& image) {
+    for (std::size_t i = 0; i < image.pixels.size(); i += 4) {
+        const unsigned alpha = image.pixels[i + 3];
+        if (alpha == 0 || alpha == 255) continue;
+        for (std::size_t c = 0; c < 3; ++c)
+            image.pixels[i + c] = static_cast<std::uint8_t>(
+                std::min(255U, (image.pixels[i + c] * 255U + alpha / 2) / alpha));
+    }
+}
+
+}  // namespace
+
+struct Painter::State {
+    std::unique_ptr<Context> context = createOsMesaContext();
+    const Api& api = context->api();
+    ProgramCache programs{api};
+    MeshStore meshes{api, kMeshBytes};
+    TextureStore textures{api, kTextureBytes};
+    std::optional<Target> target;
+    VertexArray lineArray{api}, emptyArray{api};
+    Buffer lineBuffer{api};
+    std::vector<Buffer> lightBuffers;
+    std::vector<GLuint> textureNames;
+    GLint mostSamples = 1;
+
+    State() {
+        api.GetIntegerv(GL_MAX_SAMPLES, &mostSamples);
+        mostSamples = std::min(mostSamples, 4);
+        api.ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+        api.DepthFunc(GL_GREATER);
+        api.Enable(GL_CULL_FACE);
+        api.CullFace(GL_BACK);
+        api.Enable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
+        api.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    }
+
+    void prepare(const FramePlan& plan, const Decode& decode);
+    void drawPass(const FramePlan& plan, const glm::dvec2& offset, int& drawCalls);
+    void drawBackdrop(const FramePlan& plan, int& drawCalls);
+    void drawItems(const FramePlan& plan, const glm::mat4& clip, int& drawCalls);
+    void drawLines(const std::vector<LineVertex>& lines, const glm::mat4& clip, int& drawCalls);
+    ProgramKey keyOf(const FramePlan& plan, const DrawItem& item) const;
+    void setMaterial(const FramePlan& plan, const DrawItem& item, const LinkedProgram& program);
+};
+
+Painter::Painter() : state_(std::make_unique<State>()) {}
+Painter::~Painter() = default;
+const std::string& Painter::description() const { return state_->context->description(); }
+
+void Painter::State::prepare(const FramePlan& plan, const Decode& decode) {
+    textureNames.clear();
+    for (const TextureRef& ref : plan.textures) {
+        const auto load = [&] { return decode(ref); };
+        textureNames.push_back(ref.cube ? textures.getCube(ref.key, load)
+                                        : textures.get(ref.key, ref.filter, load));
+    }
+    while (lightBuffers.size() < plan.lightSets.size()) lightBuffers.emplace_back(api);
+    for (std::size_t i = 0; i < plan.lightSets.size(); ++i) {
+        if (plan.lightSets[i].empty()) continue;
+        api.BindBuffer(GL_UNIFORM_BUFFER, lightBuffers[i].name());
+        api.BufferData(GL_UNIFORM_BUFFER,
+                       static_cast<GLsizeiptr>(plan.lightSets[i].size() * sizeof(EyeLight)),
+                       plan.lightSets[i].data(), GL_STREAM_DRAW);
+    }
+}
+
+ProgramKey Painter::State::keyOf(const FramePlan& plan, const DrawItem& item) const {
+    std::string defines;
+    const auto define = [&](const char* text) { defines += std::string("#define ") + text + '\n'; };
+    switch (plan.layer) {
+        case Layer::id:
+            define("LAYER_ID");
+            break;
+        case Layer::normal:
+            define("LAYER_NORMAL");
+            break;
+        case Layer::depth:
+            define("LAYER_DEPTH");
+            break;
+        case Layer::color:
+            break;
+    }
+    const std::vector<EyeLight>& lights = plan.lightSets[static_cast<std::size_t>(item.lightSet)];
+    defines += "#define LIGHT_COUNT " + std::to_string(plan.lit ? lights.size() : 0) + '\n';
+    if (plan.layer != Layer::color) return {"model", defines};
+    if (item.texture >= 0) define("TEXTURED");
+    if (item.texture >= 0 && item.mapping == scene::Mapping::sphere) define("MAPPING_SPHERE");
+    if (item.texture >= 0 && item.mapping == scene::Mapping::texgenObject) define("TEXGEN_OBJECT");
+    if (item.texture >= 0 && item.mapping == scene::Mapping::texgenEye) define("TEXGEN_EYE");
+    if (plan.shading == scene::Shading::chess) define("CHESS");
+    if (!plan.lit) {
+        define("UNLIT");
+        return {"model", defines};
+    }
+    if (plan.shading == scene::Shading::flat) define("FLAT");
+    if (plan.shading == scene::Shading::gouraud) define("GOURAUD");
+    if (plan.shading == scene::Shading::phong) define("PHONG");
+    const auto any = [&](auto test) { return std::any_of(lights.begin(), lights.end(), test); };
+    if (any([](const EyeLight& l) { return l.position.w != 0.0F; })) define("POSITIONAL");
+    if (any([](const EyeLight& l) { return l.spot.w > -2.0F; })) define("SPOT");
+    const bool shiny = item.specular != glm::vec3(0.0F) && any([](const EyeLight& l) {
+                           return glm::vec3(l.specular) != glm::vec3(0.0F);
+                       });
+    if (shiny) define("SPECULAR");
+    if (shiny && plan.viewer == scene::Viewer::local) define("LOCAL_VIEWER");
+    if (shiny && plan.specular == scene::Specular::separate && item.texture >= 0)
+        define("SEPARATE_SPECULAR");
+    return {"model", defines};
+}
+
+void Painter::State::setMaterial(const FramePlan& plan, const DrawItem& item,
+                                 const LinkedProgram& program) {
+    if (plan.layer == Layer::id) {
+        const glm::vec3 color(static_cast<float>((item.id >> 16) & 255U),
+                              static_cast<float>((item.id >> 8) & 255U),
+                              static_cast<float>(item.id & 255U));
+        const glm::vec3 unit = color / 255.0F;
+        return api.Uniform3fv(program.plainColor, 1, glm::value_ptr(unit));
+    }
+    const glm::vec3 base = item.emissive + item.ambient * plan.globalAmbient;
+    api.Uniform3fv(program.plainColor, 1, glm::value_ptr(item.diffuse));
+    api.Uniform3fv(program.materialDiffuse, 1, glm::value_ptr(item.diffuse));
+    api.Uniform3fv(program.materialBase, 1, glm::value_ptr(base));
+    api.Uniform3fv(program.materialAmbient, 1, glm::value_ptr(item.ambient));
+    api.Uniform3fv(program.materialSpecular, 1, glm::value_ptr(item.specular));
+    api.Uniform1f(program.materialShininess, item.shininess);
+    if (item.mapping == scene::Mapping::texgenObject || item.mapping == scene::Mapping::texgenEye) {
+        api.Uniform4fv(program.planeS, 1, glm::value_ptr(item.planeS));
+        api.Uniform4fv(program.planeT, 1, glm::value_ptr(item.planeT));
+    }
+}
+
+void Painter::State::drawItems(const FramePlan& plan, const glm::mat4& clip, int& drawCalls) {
+    const bool wireframe = plan.layer == Layer::color && plan.shading == scene::Shading::wireframe;
+    const bool points = plan.layer == Layer::color && plan.shading == scene::Shading::points;
+    const bool flat = plan.lit && plan.shading == scene::Shading::flat;
+    if (wireframe) api.PolygonMode(GL_FRONT_AND_BACK, GL_LINE);
+    if (points) api.PolygonMode(GL_FRONT_AND_BACK, GL_POINT);
+    const LinkedProgram* current = nullptr;
+    for (const DrawItem& item : plan.items) {
+        const LinkedProgram& program = programs.get(keyOf(plan, item));
+        if (&program != current) {
+            current = &program;
+            api.UseProgram(program.program.name());
+            api.UniformMatrix4fv(program.clipFromView, 1, GL_FALSE, glm::value_ptr(clip));
+            if (program.worldFromView >= 0)
+                api.UniformMatrix3fv(program.worldFromView, 1, GL_FALSE,
+                                     glm::value_ptr(plan.worldFromView));
+            if (program.nearest >= 0)
+                api.Uniform1f(program.nearest, static_cast<float>(plan.camera.near));
+        }
+        api.UniformMatrix4fv(program.viewFromObject, 1, GL_FALSE,
+                             glm::value_ptr(item.viewFromObject));
+        if (program.normalFromObject >= 0)
+            api.UniformMatrix3fv(program.normalFromObject, 1, GL_FALSE,
+                                 glm::value_ptr(item.normalFromObject));
+        setMaterial(plan, item, program);
+        const auto set = static_cast<std::size_t>(item.lightSet);
+        if (plan.lit && !plan.lightSets[set].empty())
+            api.BindBufferBase(GL_UNIFORM_BUFFER, kLightsBinding, lightBuffers[set].name());
+        if (item.texture >= 0)
+            api.BindTexture(GL_TEXTURE_2D, textureNames[static_cast<std::size_t>(item.texture)]);
+        api.FrontFace(item.mirrored ? GL_CW : GL_CCW);
+        const GpuMesh& mesh = meshes.get(*item.mesh, flat);
+        api.BindVertexArray(mesh.array.name());
+        if (mesh.indexed)
+            api.DrawElements(GL_TRIANGLES, mesh.count, GL_UNSIGNED_INT, nullptr);
+        else
+            api.DrawArrays(GL_TRIANGLES, 0, mesh.count);
+        ++drawCalls;
+    }
+    api.FrontFace(GL_CCW);
+    if (wireframe || points) api.PolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+}
+
+void Painter::State::drawLines(const std::vector<LineVertex>& lines, const glm::mat4& clip,
+                               int& drawCalls) {
+    if (lines.empty()) return;
+    const LinkedProgram& program = programs.get({"line", ""});
+    api.UseProgram(program.program.name());
+    api.UniformMatrix4fv(program.clipFromView, 1, GL_FALSE, glm::value_ptr(clip));
+    api.BindVertexArray(lineArray.name());
+    api.BindBuffer(GL_ARRAY_BUFFER, lineBuffer.name());
+    api.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(lines.size() * sizeof(LineVertex)),
+                   lines.data(), GL_STREAM_DRAW);
+    for (const GLuint location : {0U, 1U}) {
+        api.EnableVertexAttribArray(location);
+        api.VertexAttribPointer(location, 3, GL_FLOAT, GL_FALSE, sizeof(LineVertex),
+                                reinterpret_cast<const void*>(location * sizeof(glm::vec3)));
+    }
+    api.DrawArrays(GL_LINES, 0, static_cast<GLsizei>(lines.size()));
+    ++drawCalls;
+}
+
+void Painter::State::drawBackdrop(const FramePlan& plan, int& drawCalls) {
+    api.BindVertexArray(emptyArray.name());
+    api.Disable(GL_DEPTH_TEST);
+    if (plan.backgroundTexture >= 0) {
+        api.UseProgram(programs.get({"backdrop", ""}).program.name());
+        api.BindTexture(GL_TEXTURE_2D,
+                        textureNames[static_cast<std::size_t>(plan.backgroundTexture)]);
+        api.DrawArrays(GL_TRIANGLES, 0, 3);
+        ++drawCalls;
+    }
+    if (plan.skyboxTexture >= 0) {
+        const LinkedProgram& program = programs.get({"backdrop", "#define SKYBOX\n"});
+        api.UseProgram(program.program.name());
+        api.UniformMatrix3fv(program.worldFromView, 1, GL_FALSE,
+                             glm::value_ptr(plan.worldFromView));
+        const double up = std::tan(glm::radians(plan.camera.fovDeg) / 2.0);
+        api.Uniform2f(program.tangents, static_cast<float>(up * plan.width / plan.height),
+                      static_cast<float>(up));
+        api.BindTexture(GL_TEXTURE_CUBE_MAP,
+                        textureNames[static_cast<std::size_t>(plan.skyboxTexture)]);
+        api.DrawArrays(GL_TRIANGLES, 0, 3);
+        ++drawCalls;
+    }
+    api.Enable(GL_DEPTH_TEST);
+}
+
+void Painter::State::drawPass(const FramePlan& plan, const glm::dvec2& offset, int& drawCalls) {
+    const glm::dvec2 window(plan.width, plan.height);
+    const glm::mat4 clip(clipFromView(plan.camera, window.x / window.y, 2.0 * offset / window));
+    target->bind();
+    const glm::vec4 color = plan.background;
+    api.ClearBufferfv(GL_COLOR, 0, glm::value_ptr(color));
+    constexpr float kFarthest = 0.0F;  // reversed depth
+    api.ClearBufferfv(GL_DEPTH, 0, &kFarthest);
+    drawBackdrop(plan, drawCalls);
+    drawLines(plan.lines, clip, drawCalls);
+    drawItems(plan, clip, drawCalls);
+    api.Disable(GL_DEPTH_TEST);
+    drawLines(plan.overlays, clip, drawCalls);
+    api.Enable(GL_DEPTH_TEST);
+}
+
+Image Painter::draw(const FramePlan& plan, const Decode& decode, int& drawCalls, Timings& timings) {
+    State& s = *state_;
+    s.context->makeCurrent();
+    s.prepare(plan, decode);
+    auto begin = std::chrono::steady_clock::now();
+    const Sampling sampled = sampling(plan.samples, s.mostSamples);
+    if (!s.target || !s.target->fits(plan.width, plan.height, sampled.samples)) {
+        s.target.reset();  // the old one first: two large ones need not fit
+        s.target.emplace(s.api, plan.width, plan.height, sampled.samples);
+    }
+    Image image;
+    std::vector<std::uint16_t> sum;
+    for (int pass = 0; pass < sampled.passes; ++pass) {
+        s.drawPass(plan, passOffset(pass, sampled.passes), drawCalls);
+        const auto drawn = std::chrono::steady_clock::now();
+        s.target->read(image);
+        timings.readbackMs += sinceMs(drawn);
+        if (sampled.passes == 1) break;
+        sum.resize(image.pixels.size());
+        for (std::size_t i = 0; i < sum.size(); ++i)
+            sum[i] = static_cast<std::uint16_t>(sum[i] + image.pixels[i]);
+    }
+    for (std::size_t i = 0; i < sum.size(); ++i)
+        image.pixels[i] = static_cast<std::uint8_t>((sum[i] + sampled.passes / 2) / sampled.passes);
+    if (const GLenum error = s.api.GetError(); error != GL_NO_ERROR)
+        throw std::runtime_error("GL error " + std::to_string(error) + " while drawing");
+    if (plan.background.a < 1.0F) unpremultiply(image);
+    timings.drawMs += sinceMs(begin) - timings.readbackMs;
+    return image;
+}
+
+}  // namespace farol::render::gl

@@ -1,0 +1,86 @@
+// The shading model of OpenGL 2.1, section 2.14.1, written once for vertex and fragment stage.
+// Eye space: the viewer at the origin, looking along -Z.
+
+#if LIGHT_COUNT > 0
+struct Light {
+    vec4 position;     // w = 1: eye-space place; w = 0: unit vector towards the light
+    vec4 spot;         // xyz: unit direction of shining; w: cosine of the cutoff, -2: no cone
+    vec4 attenuation;  // constant, linear, quadratic; w: spot exponent
+    vec4 diffuse;
+    vec4 ambient;
+    vec4 specular;
+};
+layout(std140, binding = 0) uniform Lights { Light lights[LIGHT_COUNT]; };
+#endif
+
+uniform vec3 materialDiffuse;
+uniform vec3 materialBase;  // emissive + ambient * global ambient
+uniform vec3 materialAmbient;
+uniform vec3 materialSpecular;
+uniform float materialShininess;
+
+// normal: unit. primary holds all but the specular part, which goes to secondary.
+void shade(vec3 position, vec3 normal, out vec3 primary, out vec3 secondary) {
+    primary = materialBase;
+    secondary = vec3(0.0);
+#if LIGHT_COUNT > 0
+    for (int i = 0; i < LIGHT_COUNT; ++i) {
+        vec3 toLight = lights[i].position.xyz;
+        float strength = 1.0;
+#ifdef POSITIONAL
+        if (lights[i].position.w != 0.0) {
+            toLight -= position;
+            float distance = length(toLight);
+            // A light exactly at the point has no direction: ambient only.
+            toLight = distance > 0.0 ? toLight / distance : vec3(0.0);
+            vec3 k = lights[i].attenuation.xyz;
+            strength = 1.0 / (k.x + distance * (k.y + distance * k.z));
+#ifdef SPOT
+            if (lights[i].spot.w > -2.0) {
+                float cosine = -dot(toLight, lights[i].spot.xyz);
+                float exponent = lights[i].attenuation.w;
+                if (cosine < lights[i].spot.w)
+                    strength = 0.0;
+                else if (exponent > 0.0)  // pow(0, 0) is undefined; exponent 0 is 1 in the cone
+                    strength *= pow(max(cosine, 0.0), exponent);
+            }
+#endif
+        }
+#endif
+        float lambert = dot(normal, toLight);
+        primary += strength * (materialAmbient * lights[i].ambient.rgb +
+                               max(lambert, 0.0) * materialDiffuse * lights[i].diffuse.rgb);
+#ifdef SPECULAR
+        if (lambert > 0.0) {
+#ifdef LOCAL_VIEWER
+            vec3 toViewer = -normalize(position);
+#else
+            vec3 toViewer = vec3(0.0, 0.0, 1.0);
+#endif
+            vec3 halfway = toLight + toViewer;
+            float size = length(halfway);
+            float cosine = size > 0.0 ? max(dot(normal, halfway) / size, 0.0) : 0.0;
+            float glint = materialShininess > 0.0 ? pow(cosine, materialShininess) : 1.0;
+            secondary += strength * glint * materialSpecular * lights[i].specular.rgb;
+        }
+#endif
+    }
+#endif
+}
+
+// What the texture modulates, and what is added after it, each in 0..1.
+void finish(vec3 primary, vec3 secondary, out vec3 modulated, out vec3 added) {
+#ifdef SEPARATE_SPECULAR
+    modulated = clamp(primary, 0.0, 1.0);
+    added = clamp(secondary, 0.0, 1.0);
+#else
+    modulated = clamp(primary + secondary, 0.0, 1.0);
+    added = vec3(0.0);
+#endif
+}
+
+// A zero normal of a mesh file must not become NaN.
+vec3 unitOr(vec3 v, vec3 other) {
+    float size = length(v);
+    return size > 0.0 ? v / size : other;
+}

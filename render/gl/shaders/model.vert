@@ -1,0 +1,74 @@
+layout(location = 0) in vec3 positionObject;
+layout(location = 1) in vec3 normalObject;
+layout(location = 2) in vec2 uvIn;
+layout(location = 3) in vec3 centerObject;  // FLAT: the middle of the face
+
+uniform mat4 viewFromObject;
+uniform mat3 normalFromObject;
+uniform mat4 clipFromView;
+
+#if defined(TEXGEN_OBJECT) || defined(TEXGEN_EYE)
+uniform vec4 planeS;
+uniform vec4 planeT;
+#endif
+
+#ifdef TEXTURED
+out vec2 uv;
+#endif
+#ifdef MAPPING_SPHERE
+out vec3 positionMapped;
+#endif
+#ifdef GOURAUD
+out vec3 modulated;
+#ifdef SEPARATE_SPECULAR
+out vec3 added;
+#endif
+#endif
+#ifdef FLAT
+flat out vec3 modulated;
+#ifdef SEPARATE_SPECULAR
+flat out vec3 added;
+#endif
+#endif
+#if defined(PHONG) || defined(LAYER_NORMAL)
+out vec3 normalView;
+#endif
+#if defined(PHONG) || defined(LAYER_DEPTH)
+out vec3 positionView;
+#endif
+
+void main() {
+    vec4 position = viewFromObject * vec4(positionObject, 1.0);
+    gl_Position = clipFromView * position;
+#ifdef TEXTURED
+    uv = uvIn;
+#ifdef TEXGEN_OBJECT
+    uv = vec2(dot(planeS, vec4(positionObject, 1.0)), dot(planeT, vec4(positionObject, 1.0)));
+#endif
+#ifdef TEXGEN_EYE
+    uv = vec2(dot(planeS, position), dot(planeT, position));
+#endif
+#endif
+#ifdef MAPPING_SPHERE
+    positionMapped = positionObject;
+#endif
+#if defined(GOURAUD) || defined(FLAT)
+#ifdef FLAT
+    position = viewFromObject * vec4(centerObject, 1.0);
+#endif
+    vec3 normal = unitOr(normalFromObject * normalObject, vec3(0.0, 0.0, 1.0));
+    vec3 primary, secondary, spare;
+    shade(position.xyz, normal, primary, secondary);
+#ifdef SEPARATE_SPECULAR
+    finish(primary, secondary, modulated, added);
+#else
+    finish(primary, secondary, modulated, spare);
+#endif
+#endif
+#if defined(PHONG) || defined(LAYER_NORMAL)
+    normalView = normalFromObject * normalObject;
+#endif
+#if defined(PHONG) || defined(LAYER_DEPTH)
+    positionView = position.xyz;
+#endif
+}

@@ -1,0 +1,72 @@
+#include "render/gl/target.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace farol::render::gl {
+namespace {
+
+Renderbuffer storage(const Api& api, GLenum format, int width, int height, int samples) {
+    Renderbuffer buffer(api);
+    api.BindRenderbuffer(GL_RENDERBUFFER, buffer.name());
+    api.RenderbufferStorageMultisample(GL_RENDERBUFFER, samples > 1 ? samples : 0, format, width,
+                                       height);
+    return buffer;
+}
+
+void attach(const Api& api, GLenum point, const Renderbuffer& buffer) {
+    api.FramebufferRenderbuffer(GL_FRAMEBUFFER, point, GL_RENDERBUFFER, buffer.name());
+}
+
+void check(const Api& api) {
+    if (api.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
+        throw std::runtime_error("GL refuses the framebuffer");
+}
+
+}  // namespace
+
+Target::Target(const Api& api, int width, int height, int samples)
+    : api_(api), width_(width), height_(height), samples_(samples), drawn_(api) {
+    color_ = storage(api, GL_RGBA8, width, height, samples);
+    depth_ = storage(api, GL_DEPTH_COMPONENT32F, width, height, samples);
+    api.BindFramebuffer(GL_FRAMEBUFFER, drawn_.name());
+    attach(api, GL_COLOR_ATTACHMENT0, color_);
+    attach(api, GL_DEPTH_ATTACHMENT, depth_);
+    check(api);
+    if (samples > 1) {
+        resolved_ = Framebuffer(api);
+        resolvedColor_ = storage(api, GL_RGBA8, width, height, 1);
+        api.BindFramebuffer(GL_FRAMEBUFFER, resolved_.name());
+        attach(api, GL_COLOR_ATTACHMENT0, resolvedColor_);
+        check(api);
+    }
+}
+
+void Target::bind() const {
+    api_.BindFramebuffer(GL_FRAMEBUFFER, drawn_.name());
+    api_.Viewport(0, 0, width_, height_);
+}
+
+void Target::read(Image& image) const {
+    image.width = width_;
+    image.height = height_;
+    const std::size_t stride = static_cast<std::size_t>(width_) * 4;
+    const std::size_t rows = static_cast<std::size_t>(height_);
+    image.pixels.resize(stride * rows);
+    GLuint source = drawn_.name();
+    if (samples_ > 1) {
+        api_.BindFramebuffer(GL_READ_FRAMEBUFFER, drawn_.name());
+        api_.BindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved_.name());
+        api_.BlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT,
+                             GL_NEAREST);
+        source = resolved_.name();
+    }
+    api_.BindFramebuffer(GL_READ_FRAMEBUFFER, source);
+    api_.PixelStorei(GL_PACK_ALIGNMENT, 1);
+    api_.ReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, image.pixels.data());
+    for (std::size_t y = 0; y < rows / 2; ++y)
+        std::swap_ranges(&image.pixels[y * stride], &image.pixels[y * stride] + stride,
+                         &image.pixels[(rows - 1 - y) * stride]);
+}
+
+}  // namespace farol::render::gl

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+#include <list>
+#include <memory>
+#include <string>
+#include <unordered_map>
+
+#include "generator/mesh.h"
+#include "generator/registry.h"
+#include "scene/assets.h"
+#include "scene/scene.h"
+
+namespace farol::render {
+
+/// Axis-aligned box; empty when min > max.
+struct Box {
+    glm::dvec3 min{1e300}, max{-1e300};
+    bool empty() const { return min.x > max.x; }
+    void add(const glm::dvec3& point) {
+        min = glm::min(min, point);
+        max = glm::max(max, point);
+    }
+};
+
+/// A mesh with what the plan asks of it. `id` is unique in the process.
+struct MeshData {
+    std::uint64_t id = 0;
+    generator::Mesh mesh;
+    Box bounds;  ///< object space
+};
+
+/// Meshes by source, kept within a bound of bytes, least recently used first out.
+class MeshLibrary {
+  public:
+    explicit MeshLibrary(std::size_t maxBytes) : maxBytes_(maxBytes) {}
+    /// The mesh of a resolved model. Throws as generator::load does.
+    std::shared_ptr<const MeshData> get(const scene::Model& model, const scene::Assets& assets);
+
+  private:
+    struct Entry {
+        std::string key;
+        std::shared_ptr<const MeshData> data;
+        std::size_t bytes;
+    };
+    std::size_t maxBytes_, bytes_ = 0;
+    std::list<Entry> entries_;  ///< most recent first
+    std::unordered_map<std::string, std::list<Entry>::iterator> byKey_;
+};
+
+}  // namespace farol::render

@@ -1,0 +1,323 @@
+#include "render/plan.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/background.h"
+#include "render/camera.h"
+#include "render/instances.h"
+#include "scene/animation.h"
+
+namespace farol::render {
+namespace {
+
+constexpr int kDefaultSide = 512;
+constexpr int kDefaultSamples = 4;
+constexpr double kAxisLength = 100.0;  // as the course draws them
+
+bool anyModel(const std::vector<scene::Group>& groups, bool (*test)(const scene::Model&)) {
+    return std::any_of(groups.begin(), groups.end(), [&](const scene::Group& group) {
+        return std::any_of(group.models.begin(), group.models.end(), test) ||
+               anyModel(group.groups, test);
+    });
+}
+
+/// The automatic choice: without lights, colours and textures the wireframe of the first phases;
+/// without lights unlit; else lit per pixel.
+scene::Shading automaticShading(const scene::Scene& scene, bool lights) {
+    if (lights) return scene::Shading::phong;
+    const bool dressed = anyModel(scene.groups, [](const scene::Model& model) {
+        return model.material.has_value() || model.texture.has_value();
+    });
+    return dressed ? scene::Shading::solid : scene::Shading::wireframe;
+}
+
+class Planner {
+  public:
+    Planner(const scene::Scene& scene, const PictureOptions& options, const scene::Assets& assets,
+            MeshLibrary& meshes)
+        : scene_(scene), options_(options), assets_(assets), meshes_(meshes) {}
+
+    FramePlan run() {
+        const glm::ivec2 size = pictureSize(scene_, options_);
+        plan_.width = size.x;
+        plan_.height = size.y;
+        aspect_ = static_cast<double>(size.x) / size.y;
+        const InstanceList list =
+            collect(scene_, options_.timeS, options_.curves, assets_, meshes_);
+        chooseStyle(!list.lights.empty());
+        plan_.camera = chooseCamera(scene_, options_, list.bounds, aspect_);
+        viewFromWorld_ = viewRotation(plan_.camera);
+        plan_.worldFromView = glm::mat3(glm::transpose(viewFromWorld_));
+        clip_ = clipFromView(plan_.camera, aspect_, glm::dvec2(0.0));
+        addLights(list);
+        std::uint32_t id = 0;
+        for (const Instance& instance : list.instances) add(instance, ++id);
+        addLines(list);
+        addBackground();
+        plan_.stats.instances = static_cast<int>(list.instances.size());
+        plan_.stats.textures = static_cast<int>(plan_.textures.size());
+        return std::move(plan_);
+    }
+
+  private:
+    void chooseStyle(bool lights) {
+        plan_.samples =
+            options_.samples.value_or(scene_.settings.samples.value_or(kDefaultSamples));
+        plan_.shading = options_.shading          ? *options_.shading
+                        : scene_.settings.shading ? *scene_.settings.shading
+                                                  : automaticShading(scene_, lights);
+        plan_.layer = options_.layer;
+        // Ids, depths and normals have no meaning between two surfaces.
+        if (plan_.layer != Layer::color) plan_.samples = 1;
+        const bool surface = plan_.shading == scene::Shading::flat ||
+                             plan_.shading == scene::Shading::gouraud ||
+                             plan_.shading == scene::Shading::phong;
+        plan_.lit = surface && lights && plan_.layer == Layer::color;
+        plan_.viewer =
+            options_.viewer.value_or(scene_.settings.viewer.value_or(scene::Viewer::infinite));
+        plan_.specular =
+            options_.specular.value_or(scene_.settings.specular.value_or(scene::Specular::single));
+        plan_.globalAmbient = scene_.globalAmbient;
+    }
+
+    glm::dvec3 toView(const glm::dvec3& world) const {
+        return viewFromWorld_ * (world - plan_.camera.eye);
+    }
+
+    EyeLight toEye(const PlacedLight& placed) const {
+        const scene::Light& light = *placed.light;
+        const bool fixed = light.space == scene::LightSpace::camera;
+        const glm::dvec3 direction = fixed ? placed.direction : viewFromWorld_ * placed.direction;
+        const double size = glm::length(direction);
+        const glm::vec3 unit = size > 0.0 ? glm::vec3(direction / size) : glm::vec3(0.0F);
+        EyeLight eye{};
+        if (light.type == scene::LightType::directional)
+            eye.position = glm::vec4(unit, 0.0F);
+        else
+            eye.position =
+                glm::vec4(glm::vec3(fixed ? placed.position : toView(placed.position)), 1.0F);
+        const bool cone = light.type == scene::LightType::spot && light.cutoffDeg < 180.0;
+        eye.spot = glm::vec4(
+            unit, cone ? static_cast<float>(std::cos(glm::radians(light.cutoffDeg))) : -2.0F);
+        eye.attenuation = glm::vec4(light.constant, light.linear, light.quadratic, light.exponent);
+        eye.diffuse = glm::vec4(scene::colorAt(light.diffuse, options_.timeS), 1.0F);
+        eye.ambient = glm::vec4(scene::colorAt(light.ambient, options_.timeS), 1.0F);
+        eye.specular = glm::vec4(scene::colorAt(light.specular, options_.timeS), 1.0F);
+        return eye;
+    }
+
+    void addLights(const InstanceList& list) {
+        std::vector<EyeLight> lights;
+        for (const PlacedLight& one : list.lights) lights.push_back(toEye(one));
+        for (const std::vector<int>& set : list.lightSets) {
+            std::vector<EyeLight>& chosen = plan_.lightSets.emplace_back();
+            if (plan_.lit)
+                for (const int index : set)
+                    chosen.push_back(lights[static_cast<std::size_t>(index)]);
+        }
+        plan_.stats.lights = static_cast<int>(list.lights.size());
+    }
+
+    /// True if the whole box is beyond one side of the view, with a margin for rounding and for
+    /// points and lines, which reach past their geometry.
+    bool outside(const Box& box, const glm::dmat4& viewFromObject) const {
+        const glm::dmat4 clipFromObject = clip_ * viewFromObject;
+        const double marginX = 1.0 + 4.0 / plan_.width;
+        const double marginY = 1.0 + 4.0 / plan_.height;
+        unsigned all = 0x3FU;
+        for (int corner = 0; corner < 8 && all; ++corner) {
+            const glm::dvec4 p =
+                clipFromObject * glm::dvec4(corner & 1 ? box.max.x : box.min.x,
+                                            corner & 2 ? box.max.y : box.min.y,
+                                            corner & 4 ? box.max.z : box.min.z, 1.0);
+            const double slack = 1e-6 * (std::abs(p.x) + std::abs(p.y) + std::abs(p.w));
+            const double w = p.w;
+            unsigned out = 0;
+            if (p.x < -marginX * w - slack) out |= 1U;
+            if (p.x > marginX * w + slack) out |= 2U;
+            if (p.y < -marginY * w - slack) out |= 4U;
+            if (p.y > marginY * w + slack) out |= 8U;
+            if (p.z < -slack) out |= 16U;     // beyond far
+            if (p.z > w + slack) out |= 32U;  // before near
+            all &= out;
+        }
+        return all != 0;
+    }
+
+    void add(const Instance& instance, std::uint32_t id) {
+        const glm::dmat3 linear = viewFromWorld_ * glm::dmat3(instance.worldFromObject);
+        const glm::dvec3 origin = toView(glm::dvec3(instance.worldFromObject[3]));
+        glm::dmat4 viewFromObject(linear);
+        viewFromObject[3] = glm::dvec4(origin, 1.0);
+        const bool nothing = instance.mesh->mesh.indices.empty() || linear == glm::dmat3(0.0);
+        if (nothing || outside(instance.mesh->bounds, viewFromObject)) {
+            ++plan_.stats.culled;
+            return;
+        }
+        const scene::Model& model = *instance.model;
+        DrawItem item;
+        item.mesh = instance.mesh;
+        item.viewFromObject = glm::mat4(viewFromObject);
+        // Cofactors: the inverse transpose without its division, so flattened objects work too.
+        const glm::dmat3 cofactor(glm::cross(linear[1], linear[2]),
+                                  glm::cross(linear[2], linear[0]),
+                                  glm::cross(linear[0], linear[1]));
+        const double det = glm::dot(linear[0], cofactor[0]);
+        double largest = 0.0;
+        for (int i = 0; i < 3; ++i)
+            for (int j = 0; j < 3; ++j) largest = std::max(largest, std::abs(cofactor[i][j]));
+        if (largest > 0.0)
+            item.normalFromObject = glm::mat3(cofactor * ((det < 0.0 ? -1.0 : 1.0) / largest));
+        item.mirrored = det < 0.0;
+        fillMaterial(item, model);
+        item.lightSet = instance.lightSet;
+        item.id = id;
+        plan_.stats.triangles += static_cast<std::int64_t>(item.mesh->mesh.triangles());
+        if (model.twoSided) {
+            DrawItem back = item;
+            back.mirrored = !back.mirrored;
+            back.normalFromObject = -back.normalFromObject;
+            plan_.stats.triangles += static_cast<std::int64_t>(item.mesh->mesh.triangles());
+            plan_.items.push_back(std::move(back));
+        }
+        plan_.items.push_back(std::move(item));
+    }
+
+    void fillMaterial(DrawItem& item, const scene::Model& model) {
+        const scene::Material material = model.material.value_or(scene::Material{});
+        const double t = options_.timeS;
+        item.diffuse = scene::colorAt(material.diffuse, t);
+        item.ambient = scene::colorAt(material.ambient, t);
+        item.specular = scene::colorAt(material.specular, t);
+        item.emissive = scene::colorAt(material.emissive, t);
+        item.shininess = material.shininess;
+        const bool lines =
+            plan_.shading == scene::Shading::wireframe || plan_.shading == scene::Shading::points;
+        if (lines && !model.material) item.diffuse = glm::vec3(1.0F);
+        if (!model.texture || lines || plan_.layer != Layer::color) return;
+        // Unlit, a texture is its own picture: nothing modulates it.
+        if (!plan_.lit && !model.material) item.diffuse = glm::vec3(1.0F);
+        item.mapping = model.texture->mapping;
+        item.planeS = glm::vec4(model.texture->planeS);
+        item.planeT = glm::vec4(model.texture->planeT);
+        if (item.mapping == scene::Mapping::mesh && item.mesh->mesh.uvs.empty()) return;
+        item.texture = textureIndex(*model.texture);
+    }
+
+    int textureIndex(const scene::Texture& texture) {
+        TextureRef ref;
+        ref.path = texture.path;
+        ref.chess = texture.chess;
+        ref.filter = options_.filter.value_or(texture.filter.value_or(scene::Filter::mipmap));
+        ref.where = texture.where;
+        return addTexture(std::move(ref));
+    }
+
+    int addTexture(TextureRef ref) {
+        if (ref.chess) {
+            const scene::Chess& chess = *ref.chess;
+            ref.key = "chess " + std::to_string(chess.columns) + ' ' + std::to_string(chess.rows);
+            for (const glm::vec3& color : {chess.first, chess.second})
+                for (int i = 0; i < 3; ++i) ref.key += ' ' + std::to_string(color[i]);
+        } else {
+            ref.key = ref.path + '\n' + assets_.version(ref.path);
+        }
+        const auto found =
+            std::find_if(plan_.textures.begin(), plan_.textures.end(), [&](const TextureRef& one) {
+                return one.key == ref.key && one.filter == ref.filter && one.cube == ref.cube;
+            });
+        if (found != plan_.textures.end()) return static_cast<int>(found - plan_.textures.begin());
+        plan_.textures.push_back(std::move(ref));
+        return static_cast<int>(plan_.textures.size()) - 1;
+    }
+
+    void addLines(const InstanceList& list) {
+        if (plan_.layer != Layer::color) return;
+        const auto segment = [&](const glm::dvec3& a, const glm::dvec3& b, const glm::vec3& color) {
+            plan_.lines.push_back({glm::vec3(toView(a)), color});
+            plan_.lines.push_back({glm::vec3(toView(b)), color});
+        };
+        if (options_.axes.value_or(scene_.settings.axes.value_or(false)))
+            for (int i = 0; i < 3; ++i) {
+                glm::dvec3 end(0.0);
+                end[i] = kAxisLength;
+                glm::vec3 color(0.0F);
+                color[i] = 1.0F;
+                segment(-end, end, color);
+            }
+        for (const PlacedCurve& curve : list.curves)
+            for (std::size_t i = 0; i < curve.points.size(); ++i)
+                segment(curve.points[i], curve.points[(i + 1) % curve.points.size()],
+                        glm::vec3(1.0F));
+        if (options_.focus) {
+            // One fiftieth of the distance: as large at any zoom.
+            const double half = glm::length(plan_.camera.eye - plan_.camera.target) / 100.0;
+            for (int i = 0; i < 8; ++i)
+                for (int axis = 0; axis < 3; ++axis) {
+                    if (i & (1 << axis)) continue;
+                    const auto corner = [&](int bits) {
+                        return plan_.camera.target + half * glm::dvec3(bits & 1 ? 1 : -1,
+                                                                       bits & 2 ? 1 : -1,
+                                                                       bits & 4 ? 1 : -1);
+                    };
+                    segment(corner(i), corner(i | (1 << axis)), glm::vec3(1.0F));
+                }
+        }
+    }
+
+    void addBackground() {
+        const Background chosen = chooseBackground(scene_, options_, assets_);
+        plan_.background = chosen.color;
+        if (plan_.layer != Layer::color) {
+            plan_.background = glm::vec4(0.0F, 0.0F, 0.0F, 1.0F);
+            return;
+        }
+        if (!chosen.path.empty()) {
+            TextureRef ref;
+            ref.path = chosen.path;
+            ref.filter = scene::Filter::linear;
+            plan_.backgroundTexture = addTexture(std::move(ref));
+        }
+        if (scene_.skybox) {
+            TextureRef ref;
+            ref.cube = true;
+            ref.path = scene_.skybox->path;
+            ref.filter = scene::Filter::linear;
+            ref.where = scene_.skybox->where;
+            plan_.skyboxTexture = addTexture(std::move(ref));
+        }
+    }
+
+    const scene::Scene& scene_;
+    const PictureOptions& options_;
+    const scene::Assets& assets_;
+    MeshLibrary& meshes_;
+    FramePlan plan_;
+    double aspect_ = 1.0;
+    glm::dmat3 viewFromWorld_{1.0};
+    glm::dmat4 clip_{1.0};
+};
+
+}  // namespace
+
+glm::ivec2 pictureSize(const scene::Scene& scene, const PictureOptions& options) {
+    const scene::Window window = scene.window.value_or(scene::Window{kDefaultSide, kDefaultSide});
+    const auto scaled = [&](int side) {
+        return std::max(1, static_cast<int>(std::lround(side * options.scale)));
+    };
+    const glm::ivec2 size(scaled(options.width.value_or(window.width)),
+                          scaled(options.height.value_or(window.height)));
+    if (size.x > kMaxSide || size.y > kMaxSide || std::int64_t{size.x} * size.y > kMaxPixels)
+        throw Error("limit.pixels", "a picture of " + std::to_string(size.x) + " x " +
+                                        std::to_string(size.y) + " px is too large; at most " +
+                                        std::to_string(kMaxSide) + " a side are drawn");
+    return size;
+}
+
+FramePlan plan(const scene::Scene& scene, const PictureOptions& options,
+               const scene::Assets& assets, MeshLibrary& meshes) {
+    return Planner(scene, options, assets, meshes).run();
+}
+
+}  // namespace farol::render

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "render/mesh_library.h"
+#include "render/options.h"
+#include "render/renderer.h"
+#include "scene/assets.h"
+#include "scene/scene.h"
+
+/// What a frame draws and how, decided before any GL. Matrices are composed in double; what
+/// stands here in float is relative to the eye. Eye space: viewer at the origin, looking at -Z.
+namespace farol::render {
+
+struct EyeLight {
+    glm::vec4 position;     ///< w = 1: place; w = 0: unit vector towards the light
+    glm::vec4 spot;         ///< unit direction of shining; w: cosine of the cutoff, -2: no cone
+    glm::vec4 attenuation;  ///< constant, linear, quadratic; w: spot exponent
+    glm::vec4 diffuse, ambient, specular;
+    bool operator==(const EyeLight&) const = default;
+};
+
+/// A picture that draws sample: an asset or a chess board. `key` names its content.
+struct TextureRef {
+    std::string key, path;
+    std::optional<scene::Chess> chess;
+    bool cube = false;  ///< a skybox's cross
+    scene::Filter filter = scene::Filter::mipmap;
+    Location where;
+};
+
+struct DrawItem {
+    std::shared_ptr<const MeshData> mesh;
+    glm::mat4 viewFromObject{1.0F};
+    glm::mat3 normalFromObject{1.0F};  ///< cofactor matrix, any positive scale, outward
+    bool mirrored = false;             ///< determinant < 0: front faces are clockwise
+    glm::vec3 diffuse{0.0F}, ambient{0.0F}, specular{0.0F}, emissive{0.0F};
+    float shininess = 0.0F;
+    int texture = -1;  ///< index into FramePlan::textures
+    scene::Mapping mapping = scene::Mapping::mesh;
+    glm::vec4 planeS{0.0F}, planeT{0.0F};
+    int lightSet = 0;      ///< index into FramePlan::lightSets
+    std::uint32_t id = 0;  ///< 1.. in document order, for layer=id
+};
+
+/// A segment in eye space.
+struct LineVertex {
+    glm::vec3 position;
+    glm::vec3 color;
+};
+
+struct FramePlan {
+    int width = 512, height = 512;
+    int samples = 1;
+    scene::Shading shading = scene::Shading::phong;
+    bool lit = true;  ///< false: materials show as their plain diffuse colour
+    scene::Viewer viewer = scene::Viewer::infinite;
+    scene::Specular specular = scene::Specular::single;
+    Layer layer = Layer::color;
+    glm::vec3 globalAmbient{1.0F};
+    scene::Camera camera;
+    glm::mat3 worldFromView{1.0F};
+    std::vector<DrawItem> items;
+    std::vector<std::vector<EyeLight>> lightSets;
+    std::vector<TextureRef> textures;
+    std::vector<LineVertex> lines;     ///< pairs
+    std::vector<LineVertex> overlays;  ///< pairs, drawn over everything
+    glm::vec4 background{0.0F, 0.0F, 0.0F, 1.0F};
+    int backgroundTexture = -1, skyboxTexture = -1;  ///< indices into textures
+    Stats stats;
+};
+
+/// Width and height that a picture will have, after scale. Throws Error limit.pixels.
+glm::ivec2 pictureSize(const scene::Scene& scene, const PictureOptions& options);
+
+/// Plans one frame of a resolved scene. Throws Error as Renderer::render does.
+FramePlan plan(const scene::Scene& scene, const PictureOptions& options,
+               const scene::Assets& assets, MeshLibrary& meshes);
+
+}  // namespace farol::render

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <memory>
+
+#include "render/renderer.h"
+#include "scene/scene.h"
+
+namespace farol::render {
+
+/// A job read and resolved: every file it names is known to be there.
+struct Prepared {
+    scene::Scene scene;
+    Diagnostics diagnostics;  ///< info and warnings
+    std::shared_ptr<const scene::Assets> assets;
+};
+
+/// Reads the document (or, by the ending of the name, a mesh file on its own) and resolves what it
+/// names. Throws Error with all findings when one is an error, or in strict a warning.
+Prepared prepare(const Job& job);
+
+}  // namespace farol::render

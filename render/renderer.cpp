@@ -1,0 +1,140 @@
+#include "render/renderer.h"
+
+#include <cctype>
+#include <chrono>
+#include <set>
+
+#include "generator/registry.h"
+#include "render/camera.h"
+#include "render/encode.h"
+#include "render/gl/painter.h"
+#include "render/image_file.h"
+#include "render/instances.h"
+#include "render/plan.h"
+#include "render/prepare.h"
+#include "scene/animation.h"
+
+namespace farol::render {
+namespace {
+
+constexpr std::size_t kMeshBytes = std::size_t{256} << 20;
+
+/// Milliseconds since the last call, for stage times.
+class Stopwatch {
+  public:
+    double lap() {
+        const auto now = std::chrono::steady_clock::now();
+        const double ms = std::chrono::duration<double, std::milli>(now - last_).count();
+        last_ = now;
+        return ms;
+    }
+
+  private:
+    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+Image chessBoard(const scene::Chess& chess) {
+    // Fields of 32 texels: mipmaps have something to average, and edges stay sharp when magnified.
+    constexpr int kField = 32;
+    constexpr int kMost = 4096;
+    const int field = std::max(1, std::min(kField, kMost / std::max(chess.columns, chess.rows)));
+    Image image{chess.columns * field, chess.rows * field, {}};
+    image.pixels.reserve(static_cast<std::size_t>(image.width) *
+                         static_cast<std::size_t>(image.height) * 4);
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x) {
+            const bool odd = ((x / field + y / field) & 1) != 0;
+            const glm::vec3& color = odd ? chess.second : chess.first;
+            for (int c = 0; c < 3; ++c)
+                image.pixels.push_back(
+                    static_cast<std::uint8_t>(glm::clamp(color[c], 0.0F, 1.0F) * 255.0F + 0.5F));
+            image.pixels.push_back(255);
+        }
+    return image;
+}
+
+Image decodeTexture(const TextureRef& ref, const scene::Assets& assets) {
+    if (ref.chess) return chessBoard(*ref.chess);
+    const auto bytes = assets.read(ref.path);
+    if (!bytes) throw Error("asset.missing", "there is no file '" + ref.path + "'", ref.where);
+    return decodeImage(*bytes, ref.path, ref.where);
+}
+
+}  // namespace
+
+struct Renderer::State {
+    gl::Painter painter;
+    MeshLibrary meshes{kMeshBytes};
+};
+
+Renderer::Renderer() : state_(std::make_unique<State>()) {}
+Renderer::~Renderer() = default;
+Renderer::Renderer(Renderer&&) noexcept = default;
+Renderer& Renderer::operator=(Renderer&&) noexcept = default;
+
+Picture Renderer::render(const Job& job) {
+    Picture picture;
+    Stopwatch watch;
+    const Prepared prepared = prepare(job);
+    picture.diagnostics = prepared.diagnostics;
+    picture.times.parseMs = watch.lap();
+
+    FramePlan frame = plan(prepared.scene, job.options, *prepared.assets, state_->meshes);
+    picture.camera = frame.camera;
+    picture.times.geometryMs = watch.lap();
+
+    gl::Painter::Timings timings;
+    const Image image = state_->painter.draw(
+        frame, [&](const TextureRef& ref) { return decodeTexture(ref, *prepared.assets); },
+        frame.stats.drawCalls, timings);
+    const double total = watch.lap();
+    picture.times.drawMs = timings.drawMs;
+    picture.times.readbackMs = timings.readbackMs;
+    // What the painter did before drawing was decoding and uploading.
+    picture.times.geometryMs += total - timings.drawMs - timings.readbackMs;
+
+    picture.bytes = encode(image, job.options.format, job.options.quality);
+    picture.times.encodeMs = watch.lap();
+    picture.contentType = contentType(job.options.format);
+    picture.width = image.width;
+    picture.height = image.height;
+    picture.stats = frame.stats;
+    return picture;
+}
+
+SceneReport inspect(const Job& job) {
+    const Prepared prepared = prepare(job);
+    const scene::Scene& scene = prepared.scene;
+    SceneReport report;
+    report.diagnostics = prepared.diagnostics;
+    report.title = scene.title;
+    report.description = scene.description;
+    report.animated = scene::isAnimated(scene);
+    const glm::ivec2 size = pictureSize(scene, job.options);
+    report.width = size.x;
+    report.height = size.y;
+    MeshLibrary meshes(kMeshBytes);
+    const InstanceList list = collect(scene, job.options.timeS, false, *prepared.assets, meshes);
+    report.camera =
+        chooseCamera(scene, job.options, list.bounds, static_cast<double>(size.x) / size.y);
+    report.models = static_cast<int>(list.instances.size());
+    report.lights = static_cast<int>(list.lights.size());
+    std::set<std::string> textures;
+    for (const Instance& instance : list.instances) {
+        report.triangles += static_cast<std::int64_t>(instance.mesh->mesh.triangles());
+        if (instance.model->texture && !instance.model->texture->path.empty())
+            textures.insert(instance.model->texture->path);
+    }
+    report.textures = static_cast<int>(textures.size());
+    for (const std::string& path : textures)
+        if (const auto bytes = prepared.assets->read(path))
+            report.textureBytes += static_cast<std::int64_t>(bytes->size());
+    return report;
+}
+
+std::string version() {
+    static const std::string text = [] { return std::string("farol ") + FAROL_VERSION; }();
+    return text;
+}
+
+}  // namespace farol::render

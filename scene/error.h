@@ -39,8 +39,8 @@ using Diagnostics = std::vector<Diagnostic>;
 class Error : public std::runtime_error {
   public:
     Error(std::string code, std::string message, Location where = {}, std::string field = {})
-        : Error(Diagnostics{{Severity::error, std::move(code), std::move(where),
-                             std::move(message), std::move(field)}}) {}
+        : Error(Diagnostics{{Severity::error, std::move(code), std::move(where), std::move(message),
+                             std::move(field)}}) {}
     /// Precondition: `all` holds an error.
     explicit Error(Diagnostics all)
         : std::runtime_error(first(all).message), diagnostics_(std::move(all)) {}

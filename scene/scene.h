@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <glm/glm.hpp>
 #include <map>
 #include <memory>
@@ -35,6 +36,16 @@ struct Material {
     bool operator==(const Material&) const = default;
 };
 
+/// What a model without colours has: the course's 200/50, OpenGL's 0.8/0.2 in the other dialects.
+inline Material defaultMaterial(Dialect dialect) {
+    Material material;
+    if (dialect != Dialect::course) {
+        material.diffuse.rgb = glm::vec3(0.8F);
+        material.ambient.rgb = glm::vec3(0.2F);
+    }
+    return material;
+}
+
 enum class LightType { point, directional, spot };
 /// What the light's position and direction are relative to: its group (world) or the viewer.
 enum class LightSpace { world, camera };
@@ -42,22 +53,36 @@ enum class LightSpace { world, camera };
 struct Light {
     LightType type = LightType::point;
     LightSpace space = LightSpace::world;
-    glm::dvec3 position{0.0};       ///< point and spot
-    glm::dvec3 direction{0.0};      ///< directional: towards the light; spot: where it shines
-    double cutoffDeg = 180.0;       ///< spot: half angle, 0..90, or 180: no cone
-    double exponent = 0.0;          ///< spot: falls off as cos^exponent
+    glm::dvec3 position{0.0};   ///< point and spot
+    glm::dvec3 direction{0.0};  ///< directional: towards the light; spot: where it shines
+    double cutoffDeg = 180.0;   ///< spot: half angle, 0..90, or 180: no cone
+    double exponent = 0.0;      ///< spot: falls off as cos^exponent
     double constant = 1.0, linear = 0.0, quadratic = 0.0;  ///< attenuation, point and spot
     Color diffuse{glm::vec3(1.0F)}, ambient{}, specular{glm::vec3(1.0F)};
     Location where;
 };
 
-struct Translate { glm::dvec3 offset{0.0}; };
+struct Translate {
+    glm::dvec3 offset{0.0};
+};
 /// Along the closed Catmull-Rom curve through the points, one lap in `seconds` (> 0).
-struct FollowCurve { double seconds = 1.0; bool align = false; std::vector<glm::dvec3> points; };
-struct Rotate { double angleDeg = 0.0; glm::dvec3 axis{0.0, 1.0, 0.0}; };
+struct FollowCurve {
+    double seconds = 1.0;
+    bool align = false;
+    std::vector<glm::dvec3> points;
+};
+struct Rotate {
+    double angleDeg = 0.0;
+    glm::dvec3 axis{0.0, 1.0, 0.0};
+};
 /// One turn about the axis in `seconds` (not 0; negative turns the other way).
-struct Spin { double seconds = 1.0; glm::dvec3 axis{0.0, 1.0, 0.0}; };
-struct Scale { glm::dvec3 factors{1.0}; };
+struct Spin {
+    double seconds = 1.0;
+    glm::dvec3 axis{0.0, 1.0, 0.0};
+};
+struct Scale {
+    glm::dvec3 factors{1.0};
+};
 using Transform = std::variant<Translate, FollowCurve, Rotate, Spin, Scale>;
 
 enum class Filter { nearest, linear, mipmap, anisotropic };
@@ -71,8 +96,8 @@ struct Chess {
 };
 
 struct Texture {
-    std::string file;            ///< as written; empty for a chess texture
-    std::string path;            ///< the asset meant by it, set by resolveAssets
+    std::string file;  ///< as written; empty for a chess texture
+    std::string path;  ///< the asset meant by it, set by resolveAssets
     std::optional<Chess> chess;
     Mapping mapping = Mapping::mesh;
     glm::dvec4 planeS{1, 0, 0, 0}, planeT{0, 1, 0, 0};  ///< texgen planes, GL semantics
@@ -83,22 +108,24 @@ struct Texture {
 /// Where a model's triangles come from. Filled by generator::resolveModels.
 struct ModelSource {
     enum class Kind { none, file, shape } kind = Kind::none;
-    std::string path;                ///< file: the asset's path. shape: a profile's or patch's path, else empty
-    std::vector<std::string> words;  ///< shape: its name, then its arguments: {"cone","1","2","4","3"}
+    std::string path;  ///< file: the asset's path. shape: a profile's or patch's path, else empty
+    std::vector<std::string>
+        words;  ///< shape: its name, then its arguments: {"cone","1","2","4","3"}
     bool operator==(const ModelSource&) const = default;
 };
 
 enum class UvLayout { face, atlas, layout2017 };
 
 struct Model {
-    std::string file;                ///< as written; may be empty when a command makes it
-    std::string command;             ///< "cone 1 2 4 3" or "revolution peon.ply 32"; may be empty
-    std::optional<int> revolve;      ///< number of copies of the profile `file`
+    std::string file;            ///< as written; may be empty when a command makes it
+    std::string command;         ///< "cone 1 2 4 3" or "revolution peon.ply 32"; may be empty
+    std::optional<int> revolve;  ///< number of copies of the profile `file`
     UvLayout uv = UvLayout::face;
     ModelSource source;
     std::optional<Material> material;
     std::optional<Texture> texture;
     bool twoSided = false;
+    bool autoLod = false;  ///< lod="auto": tessellate on demand, whatever counts are given
     std::string id, name;
     Location where;
 };
@@ -107,6 +134,7 @@ struct Model {
 struct Scatter {
     int count = 0;
     double radiusMin = 0.0, radiusMax = 0.0, yMin = 0.0, yMax = 0.0;
+    std::uint64_t seed = 1;  ///< the reader numbers the scatters of a document from 1
 };
 
 struct Group {
@@ -126,14 +154,24 @@ struct Camera {
     Location where;
 };
 
-struct Window { int width = 512, height = 512; };
+struct Window {
+    int width = 512, height = 512;
+};
 
 enum class Shading { points, wireframe, solid, chess, flat, gouraud, phong };
 enum class Viewer { infinite, local };
 enum class Specular { single, separate };
 
-struct Background { std::optional<glm::vec3> color; std::string file, path; Location where; };
-struct Skybox { std::string file, path; double width = 500.0; Location where; };
+struct Background {
+    std::optional<glm::vec3> color;
+    std::string file, path;
+    Location where;
+};
+struct Skybox {
+    std::string file, path;
+    double width = 500.0;
+    Location where;
+};
 
 /// What a scene asks of its picture; a request's own options win.
 struct RenderSettings {
@@ -142,6 +180,7 @@ struct RenderSettings {
     std::optional<bool> axes;
     std::optional<Viewer> viewer;
     std::optional<Specular> specular;
+    std::optional<glm::dvec2> timeRangeS;  ///< begin < end: what an animation or turntable shows
 };
 
 struct Scene {
@@ -157,7 +196,7 @@ struct Scene {
     RenderSettings settings;
     Background background;
     std::optional<Skybox> skybox;
-    std::shared_ptr<Scene> entity;   ///< drawn in eye space before the third-person camera
+    std::shared_ptr<Scene> entity;  ///< drawn in eye space before the third-person camera
     /// `generator cone 1 2 4 3 cone_1_2_4_3.3d` comments: file name -> words after `generator`,
     /// without the file name; the shape's name may be missing or an alias.
     std::map<std::string, std::vector<std::string>> generatorComments;

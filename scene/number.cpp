@@ -1,0 +1,58 @@
+#include "scene/number.h"
+
+#include <charconv>
+#include <cmath>
+#include <limits>
+
+#include "scene/words.h"
+
+namespace farol::scene {
+namespace {
+
+/// from_chars says "out of range" for both ends; the exponent's sign tells which one it was.
+bool underflows(std::string_view digits) {
+    const std::size_t e = digits.find_first_of("eE");
+    if (e == std::string_view::npos) return digits.find_first_of("123456789") > digits.find('.');
+    return e + 1 < digits.size() && digits[e + 1] == '-';
+}
+
+}  // namespace
+
+ParsedNumber parseNumber(std::string_view text) {
+    const std::string_view word = trimmed(text);
+    std::string_view rest = word;
+    if (rest.empty()) return {0.0, "is empty; a number is wanted"};
+    if (rest.front() == '+') {
+        rest.remove_prefix(1);
+        if (!rest.empty() && rest.front() == '-') return {0.0, "is not a number"};
+    }
+    double value = 0.0;
+    const auto [end, failed] = std::from_chars(rest.data(), rest.data() + rest.size(), value);
+    const std::string_view read(rest.data(), static_cast<std::size_t>(end - rest.data()));
+    const std::string_view left = rest.substr(read.size());
+    if (failed == std::errc::invalid_argument) return {0.0, "is not a number"};
+    if (!left.empty() && left.front() == ',') {
+        std::string mended(word);
+        for (char& c : mended)
+            if (c == ',') c = '.';
+        return {0.0, "has a decimal comma; write " + quoted(mended)};
+    }
+    if (!left.empty() && !sameWord(left, "f")) return {0.0, "is not a number"};
+    if (failed == std::errc::result_out_of_range) {
+        if (underflows(read)) return {0.0, ""};
+        return {0.0, "is too large; the largest is 1e18"};
+    }
+    if (!std::isfinite(value)) return {0.0, "is not a finite number"};
+    if (std::abs(value) > kHugeNumber) return {0.0, "is too large; the largest is 1e18"};
+    if (std::abs(value) < double{std::numeric_limits<float>::min()}) value = 0.0;
+    return {value, ""};
+}
+
+std::string formatNumber(double value) {
+    if (value == 0.0) return "0";  // also the negative zero
+    char digits[32];
+    const auto [end, failed] = std::to_chars(digits, digits + sizeof digits, value);
+    return failed == std::errc{} ? std::string(digits, end) : "0";
+}
+
+}  // namespace farol::scene

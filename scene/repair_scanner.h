@@ -1,0 +1,62 @@
+#pragma once
+
+#include "scene/repair.h"
+
+namespace farol::scene {
+
+/// One pass over a document that copies it, mended, into Repaired::text.
+class RepairScanner {
+  public:
+    RepairScanner(std::string_view source, const LineIndex& lines, const ReadLimits& limits,
+                  Findings& findings);
+    Repaired run();
+
+  private:
+    struct Open {
+        std::string_view name;
+        std::size_t offset;
+        bool keepsText;
+    };
+
+    // The parts of a document.
+    void markup();
+    void text(std::size_t end);
+    void comment();
+    void characterData();
+    void declaration();
+    void instruction();
+    void endTag();
+    void startTag();
+    bool attribute(bool glued);
+    std::pair<std::size_t, std::size_t> attributeValue();
+    std::pair<std::size_t, std::size_t> bareValue();
+    void push(std::string_view name, std::size_t offset);
+    void pop();
+
+    // The source.
+    bool ended() const { return at_ >= source_.size(); }
+    bool starts(std::string_view word) const;
+    char peek(std::size_t ahead = 0) const;
+    std::string_view name();
+    bool skipBlanks();
+    std::size_t curlyQuote(std::size_t at) const;
+
+    // The result.
+    void literal(std::string_view made);
+    void copy(std::size_t begin, std::size_t end);
+    std::size_t reference(std::size_t at, std::size_t end);
+
+    Location where(std::size_t offset) const { return lines_.at(offset); }
+
+    std::string_view source_;
+    const LineIndex& lines_;
+    const ReadLimits& limits_;
+    Findings& findings_;
+    Repaired result_;
+    std::vector<Open> open_;
+    std::size_t at_ = 0;
+    bool rootSeen_ = false;
+    bool latin1_ = false;
+};
+
+}  // namespace farol::scene

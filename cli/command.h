@@ -1,0 +1,41 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <stdexcept>
+#include <string>
+
+#include "cli/report.h"
+
+/// The command line: one file a subcommand, each over the libraries.
+namespace farol::cli {
+
+enum ExitCode {
+    kDone = 0,
+    kInputFault = 1,  ///< a scene, mesh or picture is at fault
+    kUsage = 2,       ///< the command line is
+    kInternal = 3     ///< the program or the machine is: no GL, a file that cannot be written
+};
+
+/// The command line is at fault: unknown shape, an argument out of range. Becomes kUsage.
+class UsageError : public std::runtime_error {
+  public:
+    using std::runtime_error::runtime_error;
+};
+
+/// What the chosen subcommand does once its flags are read; returns the exit code.
+using Action = std::function<int(Report&)>;
+
+/// Each adds its subcommand to `root`; where the user chose it, `action` is set after parsing.
+void addServe(CLI::App& root, Action& action);
+void addRender(CLI::App& root, Action& action);
+void addGenerate(CLI::App& root, Action& action);
+void addValidate(CLI::App& root, Action& action);
+void addCompare(CLI::App& root, Action& action);
+void addHealth(CLI::App& root, Action& action);
+void addVersion(CLI::App& root, Action& action);
+
+/// "farol 0.1.0", then the renderer's own line.
+std::string versionLine();
+
+}  // namespace farol::cli

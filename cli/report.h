@@ -1,0 +1,42 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "scene/error.h"
+
+namespace farol::cli {
+
+/// What a subcommand found: as lines on stderr while it runs, or as one JSON object on stdout at
+/// its end. The object holds `status` (the exit code), `diagnostics`, and what was `set`.
+class Report {
+  public:
+    /// From then on nothing is written before `finish`.
+    void useJson() { json_ = true; }
+    bool json() const { return json_; }
+    /// Without it, diagnostics of severity info are not shown as lines; JSON holds all.
+    void setVerbose(bool verbose) { verbose_ = verbose; }
+
+    /// Stands in where a diagnostic names no file.
+    void setInput(const std::string& name) { input_ = name; }
+    void add(const Diagnostics& diagnostics);
+    /// A fault that is in no file: of the command line or of the machine.
+    void fail(const std::string& code, const std::string& message);
+    void set(const std::string& key, nlohmann::json value) { body_[key] = std::move(value); }
+    /// Sets every entry of an object; `diagnostics` are those that were added, whatever it says.
+    void merge(const nlohmann::json& object) { body_.update(object); }
+    void finish(int status);
+
+  private:
+    bool json_ = false;
+    bool verbose_ = false;
+    std::string input_ = "farol";
+    nlohmann::json body_ = nlohmann::json::object();
+    Diagnostics found_;  ///< kept for JSON alone
+};
+
+/// `file:line:column: severity: message [code]`; the numbers only where they are known. Control
+/// characters become '?', so that a file cannot write to the terminal.
+std::string formatLine(const Diagnostic& diagnostic);
+
+}  // namespace farol::cli

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <array>
+#include <utility>
+
+#include "render/image.h"
+
+namespace farol::grade {
+
+/// Levels (of 255) whose share of pixels is counted: none, rounding, drivers, filters.
+inline constexpr std::array<int, 4> kLevels{0, 2, 6, 24};
+
+/// How two pictures of one size differ, in levels 0..255 of premultiplied RGBA.
+/// A pixel's difference is the largest over its channels; its tolerant difference is the least
+/// over the 3x3 pixels around the same place of the other picture, the larger of both directions:
+/// an edge that moved by a pixel costs nothing, a thing that only one picture shows costs all.
+struct Comparison {
+    int width = 0, height = 0;
+    double meanLevels = 0.0, tolerantMeanLevels = 0.0;
+    int maxLevels = 0, tolerantMaxLevels = 0;
+    double psnrDb = 0.0;  ///< over red, green and blue; infinity where they are equal
+    /// Share of pixels, 0..1, whose difference is at most kLevels[i].
+    std::array<double, kLevels.size()> within{}, tolerantWithin{};
+};
+
+/// Throws Error image.size when the sizes differ or are zero. The second value shows where: the
+/// first picture faded to a quarter, the tolerant difference in red, eight times as strong.
+std::pair<Comparison, render::Image> compare(const render::Image& first,
+                                             const render::Image& second);
+
+/// The rectangle of `width` x `height` px whose top left pixel is at x, y from the top left of the
+/// picture. Throws Error image.crop when it is empty or reaches beyond the picture.
+render::Image crop(const render::Image& image, int x, int y, int width, int height);
+
+}  // namespace farol::grade

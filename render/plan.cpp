@@ -14,6 +14,15 @@ namespace {
 constexpr int kDefaultSide = 512;
 constexpr int kDefaultSamples = 4;
 constexpr double kAxisLength = 100.0;  // as the course draws them
+// Where the third-person camera holds its entity: in front of the eye, in eye space.
+constexpr glm::dvec3 kEntityPlace{0.0, 0.0, -3.0};
+
+/// Eye space as seen from a space: p_eye = rotation * (p - eye).
+struct View {
+    glm::dmat3 rotation{1.0};
+    glm::dvec3 eye{0.0};
+    glm::dvec3 operator()(const glm::dvec3& point) const { return rotation * (point - eye); }
+};
 
 bool anyModel(const std::vector<scene::Group>& groups, bool (*test)(const scene::Model&)) {
     return std::any_of(groups.begin(), groups.end(), [&](const scene::Group& group) {
@@ -47,15 +56,13 @@ class Planner {
             collect(scene_, options_.timeS, options_.curves, assets_, meshes_);
         chooseStyle(!list.lights.empty());
         plan_.camera = chooseCamera(scene_, options_, list.bounds, aspect_);
-        viewFromWorld_ = viewRotation(plan_.camera);
-        plan_.worldFromView = glm::mat3(glm::transpose(viewFromWorld_));
+        view_ = {viewRotation(plan_.camera), plan_.camera.eye};
+        plan_.worldFromView = glm::mat3(glm::transpose(view_.rotation));
         clip_ = clipFromView(plan_.camera, aspect_, glm::dvec2(0.0));
-        addLights(list);
-        std::uint32_t id = 0;
-        for (const Instance& instance : list.instances) add(instance, ++id);
+        addInstances(list, view_, {});
+        if (scene_.entity) addEntity(*scene_.entity);
         addLines(list);
         addBackground();
-        plan_.stats.instances = static_cast<int>(list.instances.size());
         plan_.stats.textures = static_cast<int>(plan_.textures.size());
         return std::move(plan_);
     }
@@ -81,14 +88,25 @@ class Planner {
         plan_.globalAmbient = scene_.globalAmbient;
     }
 
-    glm::dvec3 toView(const glm::dvec3& world) const {
-        return viewFromWorld_ * (world - plan_.camera.eye);
+    /// `inherited`: lights of the set 0 that a list without lights of its own is lit by.
+    void addInstances(const InstanceList& list, const View& view,
+                      const std::vector<EyeLight>& inherited) {
+        const int firstSet = static_cast<int>(plan_.lightSets.size());
+        addLights(list, view, inherited);
+        for (const Instance& instance : list.instances) add(instance, view, firstSet);
     }
 
-    EyeLight toEye(const PlacedLight& placed) const {
+    /// A second scene whose world is eye space, lit by its own lights, else by the scene's.
+    void addEntity(const scene::Scene& entity) {
+        const InstanceList list = collect(entity, options_.timeS, false, assets_, meshes_);
+        addInstances(list, {glm::dmat3(1.0), -kEntityPlace},
+                     std::vector<EyeLight>(plan_.lightSets[0]));
+    }
+
+    EyeLight toEye(const PlacedLight& placed, const View& view) const {
         const scene::Light& light = *placed.light;
         const bool fixed = light.space == scene::LightSpace::camera;
-        const glm::dvec3 direction = fixed ? placed.direction : viewFromWorld_ * placed.direction;
+        const glm::dvec3 direction = fixed ? placed.direction : view.rotation * placed.direction;
         const double size = glm::length(direction);
         const glm::vec3 unit = size > 0.0 ? glm::vec3(direction / size) : glm::vec3(0.0F);
         EyeLight eye{};
@@ -96,7 +114,7 @@ class Planner {
             eye.position = glm::vec4(unit, 0.0F);
         else
             eye.position =
-                glm::vec4(glm::vec3(fixed ? placed.position : toView(placed.position)), 1.0F);
+                glm::vec4(glm::vec3(fixed ? placed.position : view(placed.position)), 1.0F);
         const bool cone = light.type == scene::LightType::spot && light.cutoffDeg < 180.0;
         eye.spot = glm::vec4(
             unit, cone ? static_cast<float>(std::cos(glm::radians(light.cutoffDeg))) : -2.0F);
@@ -107,16 +125,17 @@ class Planner {
         return eye;
     }
 
-    void addLights(const InstanceList& list) {
+    void addLights(const InstanceList& list, const View& view,
+                   const std::vector<EyeLight>& inherited) {
         std::vector<EyeLight> lights;
-        for (const PlacedLight& one : list.lights) lights.push_back(toEye(one));
+        for (const PlacedLight& one : list.lights) lights.push_back(toEye(one, view));
         for (const std::vector<int>& set : list.lightSets) {
             std::vector<EyeLight>& chosen = plan_.lightSets.emplace_back();
-            if (plan_.lit)
-                for (const int index : set)
-                    chosen.push_back(lights[static_cast<std::size_t>(index)]);
+            if (!plan_.lit) continue;
+            if (list.lights.empty()) chosen = inherited;
+            for (const int index : set) chosen.push_back(lights[static_cast<std::size_t>(index)]);
         }
-        plan_.stats.lights = static_cast<int>(list.lights.size());
+        plan_.stats.lights += static_cast<int>(list.lights.size());
     }
 
     /// True if the whole box is beyond one side of the view, with a margin for rounding and for
@@ -145,9 +164,10 @@ class Planner {
         return all != 0;
     }
 
-    void add(const Instance& instance, std::uint32_t id) {
-        const glm::dmat3 linear = viewFromWorld_ * glm::dmat3(instance.worldFromObject);
-        const glm::dvec3 origin = toView(glm::dvec3(instance.worldFromObject[3]));
+    void add(const Instance& instance, const View& view, int firstSet) {
+        const auto id = static_cast<std::uint32_t>(++plan_.stats.instances);
+        const glm::dmat3 linear = view.rotation * glm::dmat3(instance.worldFromObject);
+        const glm::dvec3 origin = view(glm::dvec3(instance.worldFromObject[3]));
         glm::dmat4 viewFromObject(linear);
         viewFromObject[3] = glm::dvec4(origin, 1.0);
         const bool nothing = instance.mesh->mesh.indices.empty() || linear == glm::dmat3(0.0);
@@ -171,7 +191,7 @@ class Planner {
             item.normalFromObject = glm::mat3(cofactor * ((det < 0.0 ? -1.0 : 1.0) / largest));
         item.mirrored = det < 0.0;
         fillMaterial(item, model);
-        item.lightSet = instance.lightSet;
+        item.lightSet = firstSet + instance.lightSet;
         item.id = id;
         plan_.stats.triangles += static_cast<std::int64_t>(item.mesh->mesh.triangles());
         if (model.twoSided) {
@@ -235,8 +255,8 @@ class Planner {
     void addLines(const InstanceList& list) {
         if (plan_.layer != Layer::color) return;
         const auto segment = [&](const glm::dvec3& a, const glm::dvec3& b, const glm::vec3& color) {
-            plan_.lines.push_back({glm::vec3(toView(a)), color});
-            plan_.lines.push_back({glm::vec3(toView(b)), color});
+            plan_.lines.push_back({glm::vec3(view_(a)), color});
+            plan_.lines.push_back({glm::vec3(view_(b)), color});
         };
         if (options_.axes.value_or(scene_.settings.axes.value_or(false)))
             for (int i = 0; i < 3; ++i) {
@@ -295,7 +315,7 @@ class Planner {
     MeshLibrary& meshes_;
     FramePlan plan_;
     double aspect_ = 1.0;
-    glm::dmat3 viewFromWorld_{1.0};
+    View view_;
     glm::dmat4 clip_{1.0};
 };
 

@@ -1,0 +1,111 @@
+#include "render/camera.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+using namespace farol;
+using render::Box;
+using render::PictureOptions;
+
+namespace {
+
+scene::Scene sceneWith(const glm::dvec3& eye, const glm::dvec3& target) {
+    scene::Scene scene;
+    scene.camera = scene::Camera{};
+    scene.camera->eye = eye;
+    scene.camera->target = target;
+    return scene;
+}
+
+double depthAt(const scene::Camera& camera, double distance) {
+    const glm::dvec4 clip =
+        render::clipFromView(camera, 1.0, glm::dvec2(0.0)) * glm::dvec4(0, 0, -distance, 1);
+    return clip.z / clip.w;
+}
+
+}  // namespace
+
+TEST_CASE("depth runs from 1 at near to 0 at far") {
+    scene::Camera camera;
+    camera.near = 0.5;
+    camera.far = 2000.0;
+    CHECK(depthAt(camera, 0.5) == Approx(1.0));
+    CHECK(depthAt(camera, 2000.0) == Approx(0.0).margin(1e-12));
+    CHECK(depthAt(camera, 10.0) > depthAt(camera, 11.0));
+}
+
+TEST_CASE("the view rotation is orthonormal and looks along -Z, also straight up and down") {
+    const glm::dvec3 target =
+        GENERATE(glm::dvec3(0, 0, -1), glm::dvec3(3, 2, 1), glm::dvec3(0, 1, 0),
+                 glm::dvec3(0, -1, 0), glm::dvec3(1e-7, 1, 0));
+    scene::Camera camera;
+    camera.eye = glm::dvec3(0.0);
+    camera.target = target;
+    const glm::dmat3 view = render::viewRotation(camera);
+    const glm::dmat3 product = view * glm::transpose(view);
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+            CHECK(product[i][j] == Approx(i == j ? 1.0 : 0.0).margin(1e-12));
+    CHECK(glm::determinant(view) == Approx(1.0));
+    const glm::dvec3 forward = view * glm::normalize(target);
+    CHECK(forward.z == Approx(-1.0));
+}
+
+TEST_CASE("azimuth and elevation orbit about the target, what is left out stays") {
+    const scene::Scene scene = sceneWith({0, 0, 10}, {0, 0, 0});
+    PictureOptions options;
+    options.azimuthDeg = 90.0;
+    scene::Camera camera = render::chooseCamera(scene, options, Box{}, 1.0);
+    CHECK(camera.eye.x == Approx(10.0));
+    CHECK(camera.eye.z == Approx(0.0).margin(1e-9));
+    options.elevationDeg = 30.0;
+    options.distance = 4.0;
+    camera = render::chooseCamera(scene, options, Box{}, 1.0);
+    CHECK(camera.eye.y == Approx(2.0));
+    CHECK(glm::length(camera.eye) == Approx(4.0));
+    // The same numbers read off a camera give the camera back.
+    const scene::Scene oblique = sceneWith({3, 4, 5}, {1, 1, 1});
+    PictureOptions same;
+    same.distance = glm::length(glm::dvec3(2, 3, 4));
+    camera = render::chooseCamera(oblique, same, Box{}, 1.0);
+    CHECK(glm::length(camera.eye - glm::dvec3(3, 4, 5)) < 1e-12);
+}
+
+TEST_CASE("a scene without a camera is framed: all corners are inside the view") {
+    const double aspect = GENERATE(0.25, 1.0, 4.0);
+    const glm::dvec3 center = GENERATE(glm::dvec3(0), glm::dvec3(1e6, -50, 3));
+    Box box;
+    box.add(center - glm::dvec3(3, 1, 0.5));
+    box.add(center + glm::dvec3(3, 1, 0.5));
+    const scene::Camera camera =
+        render::chooseCamera(scene::Scene{}, PictureOptions{}, box, aspect);
+    const glm::dmat3 view = render::viewRotation(camera);
+    const glm::dmat4 clip = render::clipFromView(camera, aspect, glm::dvec2(0.0));
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::dvec3 point(corner & 1 ? box.max.x : box.min.x,
+                               corner & 2 ? box.max.y : box.min.y,
+                               corner & 4 ? box.max.z : box.min.z);
+        const glm::dvec4 p = clip * glm::dvec4(view * (point - camera.eye), 1.0);
+        CHECK(std::abs(p.x) < p.w);
+        CHECK(std::abs(p.y) < p.w);
+        CHECK(p.z > 0.0);
+        CHECK(p.z < p.w);
+    }
+}
+
+TEST_CASE("a camera that sees nothing is refused by name") {
+    PictureOptions options;
+    options.eye = glm::dvec3(1, 2, 3);
+    options.target = glm::dvec3(1, 2, 3);
+    try {
+        render::chooseCamera(scene::Scene{}, options, Box{}, 1.0);
+        FAIL("was accepted");
+    } catch (const Error& error) {
+        CHECK(error.code() == "option.camera");
+        CHECK(error.primary().field == "eye");
+    }
+    PictureOptions far;
+    far.near = 10.0;
+    far.far = 5.0;
+    CHECK_THROWS_AS(render::chooseCamera(scene::Scene{}, far, Box{}, 1.0), Error);
+}

@@ -1,0 +1,161 @@
+#include "render/plan.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <random>
+
+using namespace farol;
+using render::FramePlan;
+using render::PictureOptions;
+
+namespace {
+
+scene::Model sphere() {
+    scene::Model model;
+    model.source.kind = scene::ModelSource::Kind::shape;
+    model.source.words = {"sphere", "1", "8", "8"};
+    return model;
+}
+
+scene::Scene sceneAt(const std::vector<glm::dvec3>& places) {
+    scene::Scene scene;
+    scene.camera = scene::Camera{};
+    scene.camera->eye = glm::dvec3(0, 0, 10);
+    for (const glm::dvec3& place : places) {
+        scene::Group& group = scene.groups.emplace_back();
+        group.transforms.push_back(scene::Translate{place});
+        group.models.push_back(sphere());
+    }
+    return scene;
+}
+
+FramePlan planOf(const scene::Scene& scene, const PictureOptions& options = {}) {
+    render::MeshLibrary meshes(1 << 20);
+    return render::plan(scene, options, scene::BundleAssets(), meshes);
+}
+
+}  // namespace
+
+TEST_CASE("what is outside the view is not drawn, what straddles its border is") {
+    // At distance 10 and 60 degrees the half width of the view is 5.77.
+    const FramePlan plan = planOf(sceneAt({{0, 0, 0},
+                                           {6.5, 0, 0},     // straddles
+                                           {20, 0, 0},      // right of it
+                                           {0, -20, 0},     // below
+                                           {0, 0, 12},      // behind the eye
+                                           {0, 0, -995},    // beyond far
+                                           {0, 0, -989.5},  // straddles far
+                                           {0, 0, 9}}));    // straddles near
+    CHECK(plan.items.size() == 4);
+    CHECK(plan.stats.culled == 4);
+    CHECK(plan.stats.instances == 8);
+}
+
+TEST_CASE("culling never drops a model of which a point is in view") {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> place(-30.0, 30.0);
+    std::uniform_real_distribution<double> size(0.01, 20.0);
+    int inView = 0;
+    for (int i = 0; i < 2000; ++i) {
+        scene::Scene scene = sceneAt({{place(random), place(random), place(random)}});
+        scene.groups[0].transforms.push_back(
+            scene::Scale{{size(random), size(random), size(random)}});
+        const FramePlan plan = planOf(scene);
+        // Every vertex of the mesh, put through the camera in double.
+        bool visible = false;
+        const auto* move = std::get_if<scene::Translate>(&scene.groups[0].transforms[0]);
+        const auto* scale = std::get_if<scene::Scale>(&scene.groups[0].transforms[1]);
+        render::MeshLibrary meshes(1 << 20);
+        for (const glm::vec3& vertex :
+             meshes.get(sphere(), scene::BundleAssets())->mesh.positions) {
+            const glm::dvec3 p =
+                glm::dvec3(vertex) * scale->factors + move->offset - scene.camera->eye;
+            const double reach = -p.z * std::tan(glm::radians(30.0));
+            visible |=
+                -p.z > 1.0 && -p.z < 1000.0 && std::abs(p.x) < reach && std::abs(p.y) < reach;
+        }
+        inView += visible ? 1 : 0;
+        if (visible) REQUIRE(plan.items.size() == 1);
+    }
+    CHECK(inView > 200);  // the test has something to say
+}
+
+TEST_CASE("shading is chosen by what the scene holds") {
+    scene::Scene scene = sceneAt({{0, 0, 0}});
+    CHECK(planOf(scene).shading == scene::Shading::wireframe);
+    scene.groups[0].models[0].material = scene::Material{};
+    CHECK(planOf(scene).shading == scene::Shading::solid);
+    scene.lights.emplace_back();
+    CHECK(planOf(scene).shading == scene::Shading::phong);
+    CHECK(planOf(scene).lit);
+    scene.settings.shading = scene::Shading::flat;
+    CHECK(planOf(scene).shading == scene::Shading::flat);
+    PictureOptions options;
+    options.shading = scene::Shading::gouraud;
+    CHECK(planOf(scene, options).shading == scene::Shading::gouraud);
+}
+
+TEST_CASE("normals stay perpendicular under any scale, also mirrored and flattened") {
+    const glm::dvec3 factors =
+        GENERATE(glm::dvec3(1, 2, 3), glm::dvec3(-1, 1, 1), glm::dvec3(-2, -3, 1),
+                 glm::dvec3(-1, -1, -1), glm::dvec3(1, 0, 1), glm::dvec3(1e-9, 1, 1e9));
+    scene::Scene scene = sceneAt({{0, 0, 0}});
+    scene.groups[0].transforms.push_back(scene::Scale{factors});
+    const FramePlan plan = planOf(scene);
+    REQUIRE(plan.items.size() == 1);
+    const render::DrawItem& item = plan.items[0];
+    CHECK(item.mirrored == (factors.x * factors.y * factors.z < 0));
+    const glm::mat3 linear(item.viewFromObject);
+    // Two tangents and their normal, at a point of a sphere.
+    const glm::vec3 n = glm::normalize(glm::vec3(1, 2, 3));
+    const glm::vec3 t = glm::normalize(glm::cross(n, glm::vec3(0, 1, 0)));
+    const glm::vec3 normal = item.normalFromObject * n;
+    REQUIRE(std::isfinite(normal.x + normal.y + normal.z));
+    REQUIRE(glm::length(normal) > 0.0F);
+    const glm::vec3 tangent = linear * t;
+    CHECK(std::abs(glm::dot(glm::normalize(normal), glm::normalize(tangent))) < 1e-4F);
+    // Outward: on the side the scaled point lies on, as the sphere's centre is inside.
+    if (factors.y != 0.0) CHECK(glm::dot(normal, linear * n) > 0.0F);
+}
+
+TEST_CASE("an object scaled to nothing is skipped") {
+    scene::Scene scene = sceneAt({{0, 0, 0}});
+    scene.groups[0].transforms.push_back(scene::Scale{glm::dvec3(0.0)});
+    CHECK(planOf(scene).items.empty());
+}
+
+TEST_CASE("group lights light their group only, camera lights stay with the viewer") {
+    scene::Scene scene = sceneAt({{0, 0, 0}, {1, 0, 0}});
+    scene::Light light;
+    light.type = scene::LightType::point;
+    light.position = glm::dvec3(0, 5, 0);
+    scene.groups[1].lights.push_back(light);
+    scene::Light fixed;
+    fixed.type = scene::LightType::directional;
+    fixed.space = scene::LightSpace::camera;
+    fixed.direction = glm::dvec3(0, 0, 2);
+    scene.lights.push_back(fixed);
+    scene.camera->eye = glm::dvec3(10, 0, 0);
+    const FramePlan plan = planOf(scene);
+    REQUIRE(plan.items.size() == 2);
+    const auto& first = plan.lightSets[static_cast<std::size_t>(plan.items[0].lightSet)];
+    const auto& second = plan.lightSets[static_cast<std::size_t>(plan.items[1].lightSet)];
+    REQUIRE(first.size() == 1);
+    REQUIRE(second.size() == 2);
+    CHECK(first[0].position == glm::vec4(0, 0, 1, 0));  // whatever the camera
+    CHECK(second[1].position.w == 1.0F);
+    CHECK(second[1].position.y == Approx(5.0F));
+    CHECK(second[1].position.z == Approx(-9.0F));  // at x = 1: nine before the eye
+}
+
+TEST_CASE("a scene far from the origin is drawn relative to the eye") {
+    const double far = 1e7;
+    scene::Scene near = sceneAt({{0.25, 0, 0}});
+    scene::Scene moved = sceneAt({{far + 0.25, far, far}});
+    moved.camera->eye += glm::dvec3(far);
+    moved.camera->target += glm::dvec3(far);
+    const glm::mat4 a = planOf(near).items.at(0).viewFromObject;
+    const glm::mat4 b = planOf(moved).items.at(0).viewFromObject;
+    for (int i = 0; i < 4; ++i)
+        for (int j = 0; j < 4; ++j) CHECK(a[i][j] == Approx(b[i][j]).margin(1e-8));
+}

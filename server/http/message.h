@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+/// Requests and responses as the service sees them: nothing of the HTTP library shows here.
+namespace farol::server::http {
+
+using Fields = std::vector<std::pair<std::string, std::string>>;
+
+struct Request {
+    std::string id;             ///< the client's X-Request-Id when it is well-formed, else our own
+    std::string method;         ///< upper case; HEAD arrives as GET (the body is dropped later)
+    std::string path;           ///< as sent, still percent-encoded, without the query
+    Fields query;               ///< decoded, in order of appearance
+    Fields headers;             ///< names in lower case
+    std::string remoteAddress;  ///< of the socket's peer, never from a header
+
+    /// The header's value (name in lower case), or nothing.
+    std::optional<std::string> header(std::string_view name) const;
+};
+
+/// The body of a request, read on demand so that a handler may refuse before it is sent.
+class Body {
+  public:
+    virtual ~Body() = default;
+    /// All bytes. Throws Error limit.body as soon as more than `maxBytes` are there or announced,
+    /// http.body when they do not arrive as announced. May be called once.
+    virtual std::string read(std::size_t maxBytes) = 0;
+};
+
+struct Response {
+    int status = 200;
+    Fields headers;
+    std::string body;
+    std::string contentType;
+    Fields logged;  ///< more for this request's line in the log
+
+    void set(std::string name, std::string value) {
+        headers.emplace_back(std::move(name), std::move(value));
+    }
+};
+
+/// What stands behind the connections. Called by many threads at once; must not throw.
+class Handler {
+  public:
+    virtual ~Handler() = default;
+    virtual Response handle(const Request& request, Body& body) = 0;
+    /// An answer to a request that could not be read as HTTP. `code` as in problem.h.
+    virtual Response refuse(const Request& request, int status, const std::string& code,
+                            const std::string& message) = 0;
+    /// Called after the answer was written. `sent` is false when the client had gone.
+    virtual void finished(const Request& request, const Response& response, double milliseconds,
+                          bool sent) = 0;
+};
+
+}  // namespace farol::server::http

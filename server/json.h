@@ -1,0 +1,18 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "render/renderer.h"
+#include "server/scenes.h"
+
+/// The service's documents (api/openapi.yaml has their schemas).
+namespace farol::server {
+
+nlohmann::json toJson(const scene::Camera& camera);
+nlohmann::json toJson(const render::Stats& stats);
+/// Title, size, camera, counts, diagnostics.
+nlohmann::json toJson(const render::SceneReport& report);
+/// Paths of a served scene's resources.
+nlohmann::json linksOf(const ServedScene& scene);
+
+}  // namespace farol::server

@@ -1,0 +1,126 @@
+#include "server/parameters.h"
+
+#include <algorithm>
+#include <charconv>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "scene/text.h"
+
+namespace farol::server {
+namespace {
+
+using nlohmann::json;
+
+Error fault(const std::string& code, const std::string& name, const std::string& message) {
+    return Error(code, message, {}, name);
+}
+
+bool readFlag(const std::string& name, const std::string& value) {
+    if (value == "1" || value == "true") return true;
+    if (value == "0" || value == "false") return false;
+    throw fault("option.range", name, name + " must be 0 or 1, not \"" + value + "\"");
+}
+
+bool isPictureOption(const std::string& name) {
+    const auto specs = render::optionSpecs();
+    return std::any_of(specs.begin(), specs.end(),
+                       [&](const render::OptionSpec& spec) { return spec.name == name; });
+}
+
+[[noreturn]] void refuseUnknown(const std::string& name, const ParameterRules& rules) {
+    std::vector<std::string> known = rules.ownNames;
+    if (rules.picture || rules.strict) known.emplace_back("strict");
+    if (rules.picture)
+        for (const render::OptionSpec& spec : render::optionSpecs()) known.push_back(spec.name);
+    const std::string near = scene::didYouMean(name, known);
+    std::string message = "there is no parameter \"" + name + "\" here";
+    if (!near.empty()) message += "; did you mean \"" + near + "\"?";
+    throw fault("option.unknown", name, message);
+}
+
+std::string textOf(const std::string& name, const json& value) {
+    if (value.is_string()) return value.get<std::string>();
+    if (value.is_boolean()) return value.get<bool>() ? "1" : "0";
+    if (value.is_number()) return value.dump();
+    if (value.is_array()) {
+        std::string joined;
+        for (const json& one : value) {
+            if (!one.is_number()) break;
+            joined += (joined.empty() ? "" : ",") + one.dump();
+        }
+        if (!joined.empty() || value.empty()) return joined;
+    }
+    throw fault("option.syntax", name,
+                "the option \"" + name + "\" must be text, a number, true, false or numbers");
+}
+
+http::Fields fieldsOf(const std::string& text) {
+    const json value = json::parse(text, nullptr, false);
+    if (value.is_discarded() || !value.is_object())
+        throw fault("option.syntax", "options", "the part \"options\" is not a JSON object");
+    http::Fields fields;
+    for (const auto& [name, one] : value.items()) fields.emplace_back(name, textOf(name, one));
+    return fields;
+}
+
+void applyOne(Parameters& out, const ParameterRules& rules, const std::string& name,
+              const std::string& value) {
+    if (std::count(rules.ownNames.begin(), rules.ownNames.end(), name) > 0) {
+        out.own.emplace_back(name, value);
+    } else if (name == "strict" && (rules.picture || rules.strict)) {
+        out.strict = readFlag(name, value);
+    } else if (rules.picture && isPictureOption(name)) {
+        render::applyOption(out.picture, name, value);
+        out.formatGiven = out.formatGiven || name == "format";
+        std::erase_if(out.given, [&](const auto& pair) { return pair.first == name; });
+        out.given.emplace_back(name, value);
+    } else {
+        refuseUnknown(name, rules);
+    }
+}
+
+}  // namespace
+
+std::string Parameters::ownValue(const std::string& name, const std::string& fallback) const {
+    for (const auto& [key, value] : own)
+        if (key == name) return value;
+    return fallback;
+}
+
+Parameters readParameters(const http::Fields& query, const ParameterRules& rules,
+                          const std::string& fromBody) {
+    Parameters out;
+    Diagnostics faults;
+    const auto applyAll = [&](const http::Fields& fields) {
+        std::set<std::string> seen;
+        for (const auto& [name, value] : fields) {
+            try {
+                if (!seen.insert(name).second)
+                    throw fault("option.repeated", name, "\"" + name + "\" is given twice");
+                applyOne(out, rules, name, value);
+            } catch (const Error& error) {
+                const Diagnostics& found = error.diagnostics();
+                faults.insert(faults.end(), found.begin(), found.end());
+            }
+        }
+    };
+    applyAll(rules.preset);
+    if (!fromBody.empty()) applyAll(fieldsOf(fromBody));
+    applyAll(query);
+    if (!faults.empty()) throw Error(faults);
+    std::sort(out.given.begin(), out.given.end());
+    return out;
+}
+
+int wholeNumber(const std::string& name, const std::string& value, int min, int max) {
+    int number = 0;
+    const auto [end, failed] = std::from_chars(value.data(), value.data() + value.size(), number);
+    if (failed != std::errc{} || end != value.data() + value.size() || number < min || number > max)
+        throw fault("option.range", name,
+                    name + " must be a whole number in " + std::to_string(min) + ".." +
+                        std::to_string(max) + ", not \"" + value + "\"");
+    return number;
+}
+
+}  // namespace farol::server

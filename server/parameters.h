@@ -1,0 +1,38 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "render/options.h"
+#include "server/http/message.h"
+
+namespace farol::server {
+
+/// What a request asks for in its query: picture options and the route's own parameters.
+struct Parameters {
+    render::PictureOptions picture;
+    http::Fields given;   ///< picture options as given, sorted by name: part of a picture's key
+    bool strict = false;  ///< warnings are errors
+    bool formatGiven = false;
+    http::Fields own;  ///< parameters in `ownNames`
+
+    std::string ownValue(const std::string& name, const std::string& fallback = "") const;
+};
+
+struct ParameterRules {
+    bool picture = false;  ///< picture options and `strict` are understood
+    bool strict = false;   ///< `strict` alone is
+    std::vector<std::string> ownNames;
+    http::Fields preset;  ///< options that hold before the query's
+};
+
+/// Reads the query, on top of `fromBody` (the JSON of an upload's `options` part, may be empty).
+/// Throws Error with every fault found: option.unknown, option.range, option.repeated,
+/// option.syntax; each names its field.
+Parameters readParameters(const http::Fields& query, const ParameterRules& rules,
+                          const std::string& fromBody = "");
+
+/// A whole number in a range, from a parameter. Throws Error option.range.
+int wholeNumber(const std::string& name, const std::string& value, int min, int max);
+
+}  // namespace farol::server

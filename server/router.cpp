@@ -1,0 +1,69 @@
+#include "server/router.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "scene/error.h"
+#include "server/http/uri.h"
+
+namespace farol::server {
+namespace {
+
+// The value of the pattern's {parameter} ("" where it has none), or nothing for no match.
+std::optional<std::string> match(const std::string& pattern, const std::string& path) {
+    const std::size_t open = pattern.find('{');
+    if (open == std::string::npos)
+        return pattern == path ? std::optional<std::string>("") : std::nullopt;
+    const std::string_view before = std::string_view(pattern).substr(0, open);
+    const std::string_view after = std::string_view(pattern).substr(pattern.find('}') + 1);
+    if (path.size() <= before.size() + after.size() || !path.starts_with(before) ||
+        !path.ends_with(after))
+        return std::nullopt;
+    return http::percentDecode(
+        std::string_view(path).substr(before.size(), path.size() - before.size() - after.size()),
+        false);
+}
+
+}  // namespace
+
+Router::Router(std::vector<Route> routes) : routes_(std::move(routes)) {
+    // /v1/scenes/{id}/image before /v1/scenes/{id}, which it would match too.
+    std::stable_sort(routes_.begin(), routes_.end(), [](const Route& a, const Route& b) {
+        return std::pair(b.pattern.size(), a.pattern) < std::pair(a.pattern.size(), b.pattern);
+    });
+}
+
+http::Response Router::route(const http::Request& request, http::Body& body) const {
+    const std::string* known = nullptr;  // the first pattern that fits decides what a path is
+    for (const Route& route : routes_) {
+        if (known != nullptr && route.pattern != *known) break;
+        auto parameter = match(route.pattern, request.path);
+        if (!parameter) continue;
+        known = &route.pattern;
+        if (route.method == request.method)
+            return route.handle(Call{request, body, std::move(*parameter)});
+    }
+    if (known == nullptr)
+        throw Error("http.not-found", "There is nothing at " + request.path + ".");
+    if (request.method != "OPTIONS")
+        throw Error("http.method", request.method + " is not possible here.");
+    http::Response response;
+    response.status = 204;
+    response.set("Allow", allowed(request.path));
+    return response;
+}
+
+std::string Router::allowed(const std::string& path) const {
+    std::string out;
+    const std::string* known = nullptr;
+    for (const Route& route : routes_) {
+        if (known != nullptr && route.pattern != *known) break;
+        if (!match(route.pattern, path)) continue;
+        known = &route.pattern;
+        out += (out.empty() ? "" : ", ") + route.method;
+        if (route.method == "GET") out += ", HEAD";
+    }
+    return out.empty() ? out : out + ", OPTIONS";
+}
+
+}  // namespace farol::server

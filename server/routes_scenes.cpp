@@ -1,0 +1,194 @@
+// The routes that tell of scenes and shapes without drawing them.
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "generator/registry.h"
+#include "server/etag.h"
+#include "server/json.h"
+#include "server/problem.h"
+#include "server/service.h"
+
+namespace farol::server {
+
+using nlohmann::json;
+
+namespace {
+
+constexpr int kPageSize = 50;
+constexpr std::size_t kMaxKnown = 2'000;
+
+// The body with its tag, or 304.
+http::Response tagged(const Call& call, std::string body, const std::string& type) {
+    http::Response response;
+    const std::string tag = entityTag({body});
+    response.set("ETag", tag);
+    if (matchesTag(call.request.header("if-none-match"), tag)) {
+        response.status = 304;
+        return response;
+    }
+    response.contentType = type;
+    response.body = std::move(body);
+    return response;
+}
+
+std::vector<std::string> splitWords(const std::string& text) {
+    std::vector<std::string> words;
+    std::string word;
+    for (const char c : text + ' ') {
+        if (c != ' ' && c != ',') {
+            word += c;
+        } else if (!word.empty()) {
+            words.push_back(std::move(word));
+            word.clear();
+        }
+    }
+    return words;
+}
+
+}  // namespace
+
+ServedScene Service::sceneOf(const Call& call) const {
+    auto scene = scenes_.find(call.parameter);
+    if (!scene) throw Error("http.not-found", "There is no scene \"" + call.parameter + "\" here.");
+    return std::move(*scene);
+}
+
+render::Job Service::jobOf(const ServedScene& scene) const {
+    auto xml = scenes_.source(scene);
+    if (!xml) throw Error("http.not-found", "The scene \"" + scene.id + "\" went away.");
+    render::Job job;
+    job.name = scene.fileName();
+    job.xml = std::move(*xml);
+    job.assets = scenes_.assets(scene);
+    return job;
+}
+
+std::shared_ptr<const Service::Known> Service::known(const ServedScene& scene) {
+    {
+        const std::lock_guard lock(knownMutex_);
+        const auto found = known_.find(scene.id);
+        if (found != known_.end() && found->second->version == scene.version) return found->second;
+    }
+    auto fresh = std::make_shared<Known>();
+    fresh->version = scene.version;
+    try {
+        fresh->report = backend_.inspect(jobOf(scene)).result;
+    } catch (const Error& error) {
+        fresh->errors = error.diagnostics();
+    }
+    const std::lock_guard lock(knownMutex_);
+    if (known_.size() >= kMaxKnown) known_.clear();
+    known_[scene.id] = fresh;
+    return fresh;
+}
+
+namespace {
+
+json describe(const ServedScene& scene, const render::SceneReport& report,
+              const Diagnostics& errors) {
+    json out = errors.empty() ? toJson(report) : json::object();
+    out["id"] = scene.id;
+    out["valid"] = errors.empty();
+    out["links"] = linksOf(scene);
+    if (!errors.empty()) out["diagnostics"] = toJson(errors);
+    if (out.value("title", "").empty()) {
+        const std::string name = scene.id.substr(scene.id.rfind('/') + 1);
+        out["title"] = name;
+    }
+    if (!out.contains("description")) out["description"] = "";
+    return out;
+}
+
+}  // namespace
+
+http::Response Service::listScenes(const Call& call) {
+    const Parameters wanted = readParameters(call.request.query, {false, false, {"page"}, {}});
+    const std::vector<ServedScene> all = scenes_.list();
+    const int pages = std::max(1, (static_cast<int>(all.size()) + kPageSize - 1) / kPageSize);
+    const int page = wholeNumber("page", wanted.ownValue("page", "1"), 1, pages);
+    json scenes = json::array();
+    const std::size_t first = static_cast<std::size_t>(page - 1) * kPageSize;
+    for (std::size_t i = first; i < std::min(all.size(), first + kPageSize); ++i) {
+        const auto facts = known(all[i]);
+        scenes.push_back(describe(all[i], facts->report, facts->errors));
+    }
+    const json body = {{"scenes", scenes}, {"page", page}, {"pages", pages}, {"total", all.size()}};
+    return tagged(call, dump(body, 2) + "\n", "application/json");
+}
+
+http::Response Service::getScene(const Call& call) {
+    readParameters(call.request.query, {});
+    const ServedScene scene = sceneOf(call);
+    const auto facts = known(scene);
+    return tagged(call, dump(describe(scene, facts->report, facts->errors), 2) + "\n",
+                  "application/json");
+}
+
+http::Response Service::getSource(const Call& call) {
+    readParameters(call.request.query, {});
+    return tagged(call, jobOf(sceneOf(call)).xml, "application/xml");
+}
+
+http::Response Service::listPrimitives(const Call& call) {
+    readParameters(call.request.query, {});
+    json shapes = json::array();
+    for (const generator::Shape& shape : generator::shapes()) {
+        json arguments = json::array();
+        for (const generator::Argument& one : shape.arguments)
+            arguments.push_back({{"name", one.name},
+                                 {"integer", one.integer},
+                                 {"min", one.min},
+                                 {"max", one.max},
+                                 {"help", one.help}});
+        shapes.push_back({{"name", shape.name},
+                          {"summary", shape.summary},
+                          {"required", shape.required},
+                          {"takesFile", shape.takesFile},
+                          {"arguments", arguments}});
+    }
+    return tagged(call, dump({{"shapes", shapes}}, 2) + "\n", "application/json");
+}
+
+http::Response Service::getPrimitive(const Call& call) {
+    const Parameters wanted =
+        readParameters(call.request.query, {false, false, {"args", "format"}, {}});
+    if (generator::findShape(call.parameter) == nullptr)
+        throw Error("http.not-found",
+                    "There is no shape \"" + call.parameter + "\"; /v1/primitives lists them.");
+    MeshJob job;
+    job.words = splitWords(wanted.ownValue("args"));
+    job.words.insert(job.words.begin(), call.parameter);
+    job.format = wanted.ownValue("format", "3d");
+    if (job.format != "3d" && job.format != "obj" && job.format != "ply")
+        throw Error("option.range", "format must be 3d, obj or ply, not \"" + job.format + "\"", {},
+                    "format");
+    std::string key;
+    for (const std::string& word : job.words) key.append(word).append("\n");
+    const std::string tag = entityTag({key, job.format, backend_.version()});
+    http::Response response;
+    response.set("ETag", tag);
+    if (matchesTag(call.request.header("if-none-match"), tag)) {
+        response.status = 304;
+        return response;
+    }
+    try {
+        Done<std::string> done = backend_.mesh(job);
+        response.body = std::move(done.result);
+        response.logged.emplace_back("queueMs", std::to_string(done.queueMs));
+    } catch (const Error& error) {
+        if (error.code() != "shape.argument") throw;
+        // The arguments came as a parameter: the request's fault, not a document's.
+        Diagnostics found = error.diagnostics();
+        for (Diagnostic& one : found)
+            if (one.field.empty()) one.field = "args";
+        return problemResponse({400, error.code(), error.primary().message, found, {}},
+                               call.request.id);
+    }
+    response.contentType = job.format == "obj" ? "model/obj" : "application/octet-stream";
+    if (job.format == "3d") response.contentType = "text/plain; charset=utf-8";
+    response.set("Content-Disposition",
+                 "attachment; filename=\"" + job.words.front() + "." + job.format + "\"");
+    return response;
+}
+
+}  // namespace farol::server

@@ -1,0 +1,79 @@
+#include "server/scenes.h"
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+
+#include "scene/digest.h"
+
+namespace farol::server {
+namespace {
+
+constexpr std::string_view kSuffix = ".xml";
+constexpr std::string_view kMainFile = "scene.xml";
+
+std::string folderOf(const std::string& path) {
+    const std::size_t slash = path.rfind('/');
+    return slash == std::string::npos ? "" : path.substr(0, slash);
+}
+
+std::string idOf(const std::string& path) {
+    const std::string folder = folderOf(path);
+    if (!folder.empty() && path.substr(folder.size() + 1) == kMainFile) return folder;
+    return path.substr(0, path.size() - kSuffix.size());
+}
+
+std::string versionOf(const scene::Assets& files) {
+    std::string all;
+    for (const std::string& path : files.list())
+        all.append(path).append("\n").append(files.version(path)).append("\n");
+    return scene::contentDigest(all);
+}
+
+}  // namespace
+
+SceneFolder::SceneFolder(std::string root) : root_(std::move(root)), files_(root_) {}
+
+std::shared_ptr<const scene::Assets> SceneFolder::assets(const ServedScene& scene) const {
+    const std::string folder = folderOf(scene.path);
+    return std::make_shared<scene::FolderAssets>(folder.empty() ? root_ : root_ + "/" + folder);
+}
+
+std::vector<ServedScene> SceneFolder::list() const {
+    std::vector<ServedScene> scenes;
+    if (root_.empty()) return scenes;
+    std::map<std::string, std::string> versions;  // by folder: many scenes may share one
+    for (const std::string& path : files_.list()) {
+        if (!path.ends_with(kSuffix) || path.size() == kSuffix.size()) continue;
+        ServedScene scene{idOf(path), path, ""};
+        auto [entry, isNew] = versions.try_emplace(folderOf(path));
+        if (isNew) entry->second = versionOf(*assets(scene));
+        scene.version = scene::contentDigest(path + "\n" + entry->second);
+        scenes.push_back(std::move(scene));
+    }
+    // a/scene.xml and a.xml share an id; find() takes the former, so it comes first here.
+    std::sort(scenes.begin(), scenes.end(), [](const ServedScene& a, const ServedScene& b) {
+        const bool aMain = a.path.ends_with("/scene.xml"), bMain = b.path.ends_with("/scene.xml");
+        return std::tie(a.id, bMain) < std::tie(b.id, aMain);
+    });
+    const auto sameId = [](const ServedScene& a, const ServedScene& b) { return a.id == b.id; };
+    scenes.erase(std::unique(scenes.begin(), scenes.end(), sameId), scenes.end());
+    return scenes;
+}
+
+std::optional<ServedScene> SceneFolder::find(const std::string& id) const {
+    if (root_.empty() || !scene::isSafePath(id)) return std::nullopt;
+    for (const std::string& path : {id + "/" + std::string(kMainFile), id + std::string(kSuffix)}) {
+        if (!files_.has(path) || idOf(path) != id) continue;
+        ServedScene scene{id, path, ""};
+        scene.version = scene::contentDigest(path + "\n" + versionOf(*assets(scene)));
+        return scene;
+    }
+    return std::nullopt;
+}
+
+std::optional<std::string> SceneFolder::source(const ServedScene& scene) const {
+    return files_.read(scene.path);
+}
+
+}  // namespace farol::server

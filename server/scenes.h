@@ -1,0 +1,43 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "render/renderer.h"
+#include "scene/assets.h"
+
+namespace farol::server {
+
+/// One scene of the served folder. The id is its path without ".xml", or its folder's path when
+/// the file is named scene.xml: "solar-system" is solar-system/scene.xml or solar-system.xml.
+struct ServedScene {
+    std::string id;
+    std::string path;     ///< of the document, below the served folder
+    std::string version;  ///< changes when the document or a file beside it may have changed
+
+    std::string fileName() const { return path.substr(path.rfind('/') + 1); }
+};
+
+/// The folder that is served: looked at anew on every call, so that edits show at once. Nothing
+/// outside it is ever found, whatever the id or the links inside say.
+class SceneFolder {
+  public:
+    /// An empty `root` serves no scenes.
+    explicit SceneFolder(std::string root);
+
+    /// All scenes in the order of their ids; at most Assets::kMaxListed files are looked at.
+    std::vector<ServedScene> list() const;
+    std::optional<ServedScene> find(const std::string& id) const;
+    /// The document's bytes; nothing if it went away meanwhile.
+    std::optional<std::string> source(const ServedScene& scene) const;
+    /// The files beside the document.
+    std::shared_ptr<const scene::Assets> assets(const ServedScene& scene) const;
+
+  private:
+    std::string root_;
+    scene::FolderAssets files_;
+};
+
+}  // namespace farol::server

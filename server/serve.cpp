@@ -1,0 +1,70 @@
+#include "server/serve.h"
+
+#include <pthread.h>
+#include <signal.h>
+
+#include <cstdio>
+#include <filesystem>
+
+#include "server/render_backend.h"
+#include "server/server.h"
+
+namespace farol::server {
+namespace {
+
+void checkOptions(const ServeOptions& options) {
+    const auto range = [](const char* name, long value, long min, long max) {
+        if (value < min || value > max)
+            throw Error("option.range",
+                        std::string(name) + " must be in " + std::to_string(min) + ".." +
+                            std::to_string(max) + ", not " + std::to_string(value),
+                        {}, name);
+    };
+    range("port", options.listen.port, 0, 65535);
+    range("threads", options.listen.threads, 1, 1024);
+    range("max-connections", options.listen.maxConnections, 1, 100'000);
+    range("workers", options.workers, 1, 64);
+    range("queue", options.queue.waiting, 0, 10'000);
+    range("max-body", static_cast<long>(options.maxBodyBytes), 1, 1L << 30);
+    std::error_code ignored;
+    if (!options.scenesDir.empty() && !std::filesystem::is_directory(options.scenesDir, ignored))
+        throw Error("asset.missing", "there is no folder " + options.scenesDir, {}, "scenes");
+}
+
+std::string urlOf(const std::string& host, int port) {
+    const bool v6 = host.find(':') != std::string::npos;
+    return "http://" + (v6 ? "[" + host + "]" : host) + ":" + std::to_string(port);
+}
+
+}  // namespace
+
+int serve(const ServeOptions& options) {
+    checkOptions(options);
+    // Blocked here and so in every thread below; this one waits for them.
+    sigset_t signals;
+    sigemptyset(&signals);
+    sigaddset(&signals, SIGTERM);
+    sigaddset(&signals, SIGINT);
+    pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+    signal(SIGPIPE, SIG_IGN);
+
+    QueueLimits queue = options.queue;
+    if (queue.waiting == 0) queue.waiting = 4 * options.workers;
+    RenderBackend backend(options.workers, queue);
+    ServiceOptions service;
+    service.scenesDir = options.scenesDir;
+    service.maxBodyBytes = options.maxBodyBytes;
+    service.corsOrigin = options.corsOrigin;
+    Server server(options.listen, service, backend);
+    server.start();
+    std::printf("listening on %s\n", urlOf(options.listen.host, server.port()).c_str());
+    std::fflush(stdout);
+
+    int received = 0;
+    sigwait(&signals, &received);
+    server.stop();
+    backend.stop();
+    return 0;
+}
+
+}  // namespace farol::server

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+
+#include "server/http/listener.h"
+#include "server/queue.h"
+
+namespace farol::server {
+
+/// What `farol serve` is told. The fields' defaults are the documented ones.
+struct ServeOptions {
+    http::ListenOptions listen;
+    std::string scenesDir;  ///< empty: no scenes are served
+    int workers = 1;        ///< threads that draw, 1..64
+    QueueLimits queue{0, std::chrono::milliseconds(2'000), std::chrono::milliseconds(10'000)};
+    ///< queue.waiting 0: four a worker
+    std::size_t maxBodyBytes = 16U << 20;
+    std::string corsOrigin;  ///< empty: no CORS headers
+};
+
+/// Serves until SIGTERM or SIGINT, then lets the requests in flight end. Prints one line,
+/// "listening on http://127.0.0.1:8080", to stdout when it is ready to accept (with the port
+/// taken where `listen.port` is 0); logs to stderr, one line of JSON a request. Returns 0. Throws
+/// std::runtime_error when it cannot listen and Error option.range or asset.missing for options
+/// that cannot be. Call it before other threads are started: it blocks the signals for all.
+int serve(const ServeOptions& options);
+
+}  // namespace farol::server

@@ -1,0 +1,195 @@
+#include "server/service.h"
+
+#include <nlohmann/json.hpp>
+#include <span>
+
+#include "scene/embedded.h"
+#include "server/etag.h"
+#include "server/problem.h"
+#include "server/version.h"
+
+namespace farol {
+std::span<const EmbeddedFile> webFiles();
+}
+
+namespace farol::server {
+
+using nlohmann::json;
+
+namespace {
+
+// The page loads its own script, style and pictures and talks to its own server: nothing else.
+constexpr const char* kPagePolicy =
+    "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob:; "
+    "connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+// A scene's source is XML from strangers: a browser that opens it must not run what is in it.
+constexpr const char* kDataPolicy = "default-src 'none'; frame-ancestors 'none'; sandbox";
+
+std::string_view embedded(const std::string& name) {
+    for (const EmbeddedFile& file : webFiles())
+        if (file.name == name) return file.bytes;
+    return {};
+}
+
+http::Response jsonResponse(const json& value) {
+    http::Response response;
+    response.contentType = "application/json";
+    response.body = dump(value, 2) + "\n";
+    return response;
+}
+
+// Routes without parameters refuse any.
+void noParameters(const Call& call) { readParameters(call.request.query, {}); }
+
+}  // namespace
+
+Service::Service(ServiceOptions options, Backend& backend, Logger& logger)
+    : options_(std::move(options)),
+      backend_(backend),
+      logger_(logger),
+      scenes_(options_.scenesDir),
+      router_(routes()) {}
+
+std::vector<Route> Service::routes() {
+    using Member = http::Response (Service::*)(const Call&);
+    const auto call = [this](Member member) {
+        return [this, member](const Call& one) { return (this->*member)(one); };
+    };
+    const auto file = [this](const char* name, const char* type) {
+        return [this, name, type](const Call& one) { return page(one, name, type); };
+    };
+    const auto image = [this](http::Fields preset) {
+        return
+            [this, preset = std::move(preset)](const Call& one) { return getImage(one, preset); };
+    };
+    return {
+        {"GET", "/", file("index.html", "text/html; charset=utf-8")},
+        {"GET", "/app.js", file("app.js", "text/javascript; charset=utf-8")},
+        {"GET", "/style.css", file("style.css", "text/css; charset=utf-8")},
+        {"GET", "/openapi.yaml", file("openapi.yaml", "application/yaml")},
+        {"GET", "/livez", call(&Service::livez)},
+        {"GET", "/readyz", call(&Service::readyz)},
+        {"GET", "/version", call(&Service::version)},
+        {"POST", "/v1/render", call(&Service::postRender)},
+        {"POST", "/v1/validate", call(&Service::postValidate)},
+        {"GET", "/v1/scenes", call(&Service::listScenes)},
+        {"GET", "/v1/scenes/{id}", call(&Service::getScene)},
+        {"GET", "/v1/scenes/{id}/source", call(&Service::getSource)},
+        {"GET", "/v1/scenes/{id}/image", image({})},
+        {"GET", "/v1/scenes/{id}/thumbnail",
+         image({{"width", "320"}, {"height", "240"}, {"format", "jpeg"}, {"quality", "85"}})},
+        {"GET", "/v1/primitives", call(&Service::listPrimitives)},
+        {"GET", "/v1/primitives/{shape}", call(&Service::getPrimitive)},
+    };
+}
+
+http::Response Service::handle(const http::Request& request, http::Body& body) {
+    http::Response response;
+    try {
+        response = router_.route(request, body);
+    } catch (const Error& error) {
+        Problem problem = problemOf(error);
+        if (problem.status == 405)
+            problem.headers.emplace_back("Allow", router_.allowed(request.path));
+        if (problem.code == "http.media-type")
+            problem.headers.emplace_back("Accept-Post",
+                                         "application/xml, text/xml, multipart/form-data");
+        response = problemResponse(problem, request.id);
+    } catch (const Busy& busy) {
+        response = problemResponse({503,
+                                    busy.code(),
+                                    busy.what(),
+                                    {},
+                                    {{"Retry-After", std::to_string(busy.retryAfterS())}}},
+                                   request.id);
+    } catch (const std::exception& fault) {
+        // What went wrong is for the operator; the client gets the id to ask about.
+        logger_.event("internal-error", request.id + ": " + fault.what());
+        response = problemResponse({500, "internal", "The server met an error of its own.", {}, {}},
+                                   request.id);
+    }
+    finish(request, response);
+    return response;
+}
+
+http::Response Service::refuse(const http::Request& request, int status, const std::string& code,
+                               const std::string& message) {
+    http::Response response = problemResponse({status, code, message, {}, {}}, request.id);
+    finish(request, response);
+    return response;
+}
+
+void Service::finish(const http::Request& request, http::Response& response) const {
+    const auto has = [&](const char* name) {
+        for (const auto& [key, value] : response.headers)
+            if (key == name) return true;
+        return false;
+    };
+    response.set("X-Request-Id", request.id);
+    response.set("X-Content-Type-Options", "nosniff");
+    response.set("Referrer-Policy", "no-referrer");
+    if (!has("Content-Security-Policy")) response.set("Content-Security-Policy", kDataPolicy);
+    if (!has("Cache-Control")) response.set("Cache-Control", "no-cache");
+    if (options_.corsOrigin.empty()) return;
+    response.set("Access-Control-Allow-Origin", options_.corsOrigin);
+    response.set("Access-Control-Expose-Headers",
+                 "ETag, Server-Timing, X-Request-Id, X-Farol-Stats, X-Farol-Camera, "
+                 "X-Farol-Diagnostics, Retry-After");
+    if (request.method == "OPTIONS") {
+        response.set("Access-Control-Allow-Methods", "GET, HEAD, POST, OPTIONS");
+        response.set("Access-Control-Allow-Headers", "Content-Type, If-None-Match, X-Request-Id");
+        response.set("Access-Control-Max-Age", "600");
+    }
+}
+
+void Service::finished(const http::Request& request, const http::Response& response,
+                       double milliseconds, bool sent) {
+    logger_.request(request, response, milliseconds, sent);
+}
+
+http::Response Service::page(const Call& call, const std::string& file, const std::string& type) {
+    noParameters(call);
+    const std::string_view bytes = embedded(file);
+    http::Response response;
+    const std::string tag = entityTag({bytes});
+    response.set("ETag", tag);
+    response.set("Content-Security-Policy", kPagePolicy);
+    if (matchesTag(call.request.header("if-none-match"), tag)) {
+        response.status = 304;
+        return response;
+    }
+    response.contentType = type;
+    response.body = std::string(bytes);
+    return response;
+}
+
+http::Response Service::livez(const Call& call) {
+    noParameters(call);
+    return jsonResponse({{"status", "alive"}});
+}
+
+http::Response Service::readyz(const Call& call) {
+    noParameters(call);
+    if (draining_) throw Busy("busy.draining", "The server is shutting down.", 1);
+    try {
+        backend_.check();
+    } catch (const Busy&) {
+        throw;
+    } catch (const std::exception& fault) {
+        logger_.event("not-ready", fault.what());
+        throw Busy("not-ready", "The renderer does not draw as it should.", 5);
+    }
+    const BackendState state = backend_.state();
+    return jsonResponse({{"status", "ready"},
+                         {"workers", state.workers},
+                         {"busy", state.busy},
+                         {"queued", state.queued}});
+}
+
+http::Response Service::version(const Call& call) {
+    noParameters(call);
+    return jsonResponse(
+        {{"name", "farol"}, {"version", projectVersion()}, {"renderer", backend_.version()}});
+}
+
+}  // namespace farol::server

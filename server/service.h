@@ -1,0 +1,76 @@
+#pragma once
+
+#include <atomic>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "server/backend.h"
+#include "server/http/message.h"
+#include "server/log.h"
+#include "server/parameters.h"
+#include "server/router.h"
+#include "server/scenes.h"
+
+namespace farol::server {
+
+struct ServiceOptions {
+    std::string scenesDir;  ///< empty: no scenes are served
+    std::size_t maxBodyBytes = 16U << 20;
+    std::string corsOrigin;  ///< Access-Control-Allow-Origin; empty: not sent
+};
+
+/// The REST interface (docs/http.md): what the routes do, without sockets and without GL.
+class Service final : public http::Handler {
+  public:
+    Service(ServiceOptions options, Backend& backend, Logger& logger);
+
+    http::Response handle(const http::Request& request, http::Body& body) override;
+    http::Response refuse(const http::Request& request, int status, const std::string& code,
+                          const std::string& message) override;
+    void finished(const http::Request& request, const http::Response& response, double milliseconds,
+                  bool sent) override;
+
+    /// Readiness turns false; requests are still answered.
+    void drain() { draining_ = true; }
+    const Router& router() const { return router_; }
+
+  private:
+    /// What is known of a served scene without drawing it, or why it cannot be read.
+    struct Known {
+        std::string version;
+        render::SceneReport report;
+        Diagnostics errors;
+    };
+
+    std::vector<Route> routes();
+    http::Response page(const Call& call, const std::string& file, const std::string& type);
+    http::Response livez(const Call& call);
+    http::Response readyz(const Call& call);
+    http::Response version(const Call& call);
+    http::Response postRender(const Call& call);
+    http::Response postValidate(const Call& call);
+    http::Response listScenes(const Call& call);
+    http::Response getScene(const Call& call);
+    http::Response getSource(const Call& call);
+    http::Response getImage(const Call& call, const http::Fields& preset);
+    http::Response listPrimitives(const Call& call);
+    http::Response getPrimitive(const Call& call);
+
+    ServedScene sceneOf(const Call& call) const;
+    render::Job jobOf(const ServedScene& scene) const;
+    std::shared_ptr<const Known> known(const ServedScene& scene);
+    void finish(const http::Request& request, http::Response& response) const;
+
+    const ServiceOptions options_;
+    Backend& backend_;
+    Logger& logger_;
+    SceneFolder scenes_;
+    Router router_;
+    std::atomic<bool> draining_{false};
+    std::mutex knownMutex_;
+    std::map<std::string, std::shared_ptr<const Known>> known_;  ///< by id; bounded
+};
+
+}  // namespace farol::server

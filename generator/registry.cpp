@@ -1,1 +1,109 @@
 #include "generator/registry.h"
+
+#include <algorithm>
+
+#include "generator/entry.h"
+#include "generator/io/mesh_file.h"
+#include "generator/primitives/box.h"
+#include "generator/primitives/cone.h"
+#include "generator/primitives/cylinder.h"
+#include "generator/primitives/ellipsoid.h"
+#include "generator/primitives/frustum.h"
+#include "generator/primitives/patch.h"
+#include "generator/primitives/plane.h"
+#include "generator/primitives/revolution.h"
+#include "generator/primitives/ring.h"
+#include "generator/primitives/sphere.h"
+#include "generator/primitives/torus.h"
+#include "generator/sources.h"
+
+namespace farol::generator {
+namespace {
+
+/// All shapes; entries and their shapes have the same index.
+struct Table {
+    std::vector<Entry> entries;
+    std::vector<Shape> shapes;
+
+    Table() {
+        using namespace farol::generator::primitives;
+        entries = {planeEntry(),     boxEntry(),     sphereEntry(),    coneEntry(),
+                   cylinderEntry(),  torusEntry(),   patchEntry(),     ringEntry(),
+                   ellipsoidEntry(), frustumEntry(), revolutionEntry()};
+        for (const Entry& entry : entries) shapes.push_back(entry.shape);
+    }
+};
+
+const Table& table() {
+    static const Table made;
+    return made;
+}
+
+bool sameWord(const std::string& a, const std::string& b) {
+    const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c; };
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                      [&](char x, char y) { return lower(x) == lower(y); });
+}
+
+/// A call with the bytes of its file, its triangles counted and within the limit.
+struct Prepared {
+    Call call;
+    std::string bytes;
+    std::size_t triangles = 0;
+};
+
+Prepared prepare(const std::vector<std::string>& words, const scene::Assets& assets) {
+    Prepared out{parseCall(words), "", 0};
+    if (out.call.shape->takesFile) out.bytes = readSource(out.call.file, assets);
+    out.triangles = entryOf(*out.call.shape).count(out.call, out.bytes);
+    if (out.triangles > kMaxTriangles)
+        throw Error("limit.triangles", "this " + out.call.shape->name + " has " +
+                                           std::to_string(out.triangles) + " triangles; at most " +
+                                           std::to_string(kMaxTriangles) + " are allowed");
+    return out;
+}
+
+}  // namespace
+
+std::span<const Shape> shapes() { return table().shapes; }
+
+const Shape* findShape(const std::string& name) {
+    for (const Shape& shape : table().shapes) {
+        if (sameWord(shape.name, name)) return &shape;
+        for (const std::string& alias : shape.aliases)
+            if (sameWord(alias, name)) return &shape;
+    }
+    return nullptr;
+}
+
+const Entry& entryOf(const Shape& shape) {
+    return table().entries[static_cast<std::size_t>(&shape - table().shapes.data())];
+}
+
+Mesh generate(const std::vector<std::string>& words, const scene::Assets& assets,
+              scene::UvLayout uv) {
+    const Prepared ready = prepare(words, assets);
+    return entryOf(*ready.call.shape).make(ready.call, ready.bytes, uv);
+}
+
+std::size_t countTriangles(const std::vector<std::string>& words, const scene::Assets& assets) {
+    return prepare(words, assets).triangles;
+}
+
+Mesh load(const scene::Model& model, const scene::Assets& assets, Diagnostics* findings) {
+    using Kind = scene::ModelSource::Kind;
+    const scene::ModelSource& source = model.source;
+    if (source.kind == Kind::shape) {
+        std::vector<std::string> words = source.words;
+        if (!source.path.empty() && words.size() > 1) words[1] = source.path;
+        return generate(words, assets, model.uv);
+    }
+    const std::optional<std::string> bytes =
+        source.kind == Kind::file ? assets.read(source.path) : std::nullopt;
+    if (!bytes)
+        throw Error("asset.missing", "the mesh \"" + model.file + "\" cannot be had", model.where);
+    Diagnostics unheard;
+    return io::decodeMesh(*bytes, source.path, findings != nullptr ? *findings : unheard);
+}
+
+}  // namespace farol::generator

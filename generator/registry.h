@@ -14,19 +14,22 @@ namespace farol::generator {
 
 /// One argument of a shape, for messages, help and the API.
 struct Argument {
-    std::string name;   ///< "slices"
-    bool integer;       ///< a count, else a length in the scene's units
-    double min, max;    ///< inclusive range
+    std::string name;  ///< "slices"
+    bool integer;      ///< a count, else a length in the scene's units
+    double min, max;   ///< inclusive range
     std::string help;
+    double fallback = 0;  ///< the value where the argument is left out
+    bool level = false;   ///< fineness alone: left out or "auto", it may be chosen on demand
 };
 
 /// One registered shape. `required` arguments come first; the rest have defaults on demand.
 struct Shape {
     std::string name;
-    std::string summary;             ///< its geometry in one sentence
+    std::string summary;  ///< its geometry in one sentence
     std::vector<Argument> arguments;
     std::size_t required;
-    bool takesFile;                  ///< the first word after the name is a profile or patch file
+    bool takesFile;  ///< the first word after the name is a profile or patch file
+    std::vector<std::string> aliases = {};
 };
 
 /// All shapes, in the order of the help.
@@ -41,7 +44,8 @@ const Shape* findShape(const std::string& name);
 Mesh generate(const std::vector<std::string>& words, const scene::Assets& assets,
               scene::UvLayout uv = scene::UvLayout::face);
 
-/// The number of triangles `generate` would make, without making them (patch files are read).
+/// The number of triangles `generate` would make, without making them (patch files are read); an
+/// upper bound where a patch or profile folds points together. Throws as generate does.
 std::size_t countTriangles(const std::vector<std::string>& words, const scene::Assets& assets);
 
 /// Fills in Model::source of every model of the scene (entity included), and Texture::path,
@@ -51,8 +55,9 @@ std::size_t countTriangles(const std::vector<std::string>& words, const scene::A
 /// not throw.
 void resolve(scene::Scene& scene, const scene::Assets& assets, Diagnostics& diagnostics);
 
-/// The mesh of a resolved model. Throws as generate does.
-Mesh load(const scene::Model& model, const scene::Assets& assets);
+/// The mesh of a resolved model. Throws as generate and io::decodeMesh do; what was repaired in
+/// a mesh file is added to `findings` where it is given.
+Mesh load(const scene::Model& model, const scene::Assets& assets, Diagnostics* findings = nullptr);
 
 /// Upper bound on triangles of one mesh, counted before memory is taken for it.
 inline constexpr std::size_t kMaxTriangles = 5'000'000;

@@ -1,0 +1,109 @@
+#include <bit>
+#include <cmath>
+
+#include "generator/io/formats.h"
+
+/// Our binary form, little-endian: "FAROL3D\n", version (u32: 1), flags (u32: 1 normals, 2 UVs),
+/// vertices (u32), indices (u32), then floats x y z each, normals, UVs, then u32 indices, then the
+/// 64-bit FNV-1a hash of all bytes before it.
+namespace farol::generator::io {
+namespace {
+
+constexpr std::string_view kMagic = "FAROL3D\n";
+constexpr std::uint32_t kVersion = 1, kNormals = 1, kUvs = 2;
+constexpr std::size_t kHeader = 24, kChecksum = 8;
+
+std::uint64_t checksum(std::string_view bytes) {
+    std::uint64_t hash = 14695981039346656037U;
+    for (const char c : bytes) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211U;
+    return hash;
+}
+
+template <class Integer>
+void put(std::string& out, Integer value) {
+    for (std::size_t i = 0; i < sizeof(Integer); ++i)
+        out += static_cast<char>(value >> (8 * i) & 0xFFU);
+}
+
+template <class Integer>
+Integer get(std::string_view& bytes) {
+    Integer value = 0;
+    for (std::size_t i = 0; i < sizeof(Integer); ++i)
+        value |= static_cast<Integer>(Integer{static_cast<unsigned char>(bytes[i])} << (8 * i));
+    bytes.remove_prefix(sizeof(Integer));
+    return value;
+}
+
+template <int N, class Vector>
+void putAll(std::string& out, const std::vector<Vector>& list) {
+    for (const Vector& value : list)
+        for (int k = 0; k < N; ++k) put(out, std::bit_cast<std::uint32_t>(value[k]));
+}
+
+template <int N, class Vector>
+void getAll(std::string_view& bytes, std::size_t count, std::vector<Vector>& list,
+            const std::string& file, bool finite) {
+    list.resize(count);
+    for (Vector& value : list) {
+        for (int k = 0; k < N; ++k) {
+            value[k] = std::bit_cast<float>(get<std::uint32_t>(bytes));
+            if (finite && !(std::abs(value[k]) <= kMaxCoordinate))
+                throw Error("mesh.number", "a number is not finite or beyond 1e18", {file, 0, 0});
+        }
+    }
+}
+
+}  // namespace
+
+std::string encodeBinary(const Mesh& mesh) {
+    std::string out(kMagic);
+    put(out, kVersion);
+    put(out, (mesh.normals.empty() ? 0 : kNormals) | (mesh.uvs.empty() ? 0 : kUvs));
+    put(out, static_cast<std::uint32_t>(mesh.positions.size()));
+    put(out, static_cast<std::uint32_t>(mesh.indices.size()));
+    putAll<3>(out, mesh.positions);
+    putAll<3>(out, mesh.normals);
+    putAll<2>(out, mesh.uvs);
+    for (const std::uint32_t index : mesh.indices) put(out, index);
+    put(out, checksum(out));
+    return out;
+}
+
+bool looksLikeBinary(std::string_view bytes) { return bytes.substr(0, kMagic.size()) == kMagic; }
+
+Mesh decodeBinary(std::string_view bytes, const std::string& fileName) {
+    const auto fail = [&fileName](const char* code, const std::string& message) {
+        throw Error(code, message, {fileName, 0, 0});
+    };
+    if (bytes.size() < kHeader + kChecksum) fail("mesh.truncated", "the binary mesh is cut off");
+    std::string_view rest = bytes.substr(kMagic.size());
+    const auto version = get<std::uint32_t>(rest), flags = get<std::uint32_t>(rest);
+    const std::uint64_t vertices = get<std::uint32_t>(rest), indices = get<std::uint32_t>(rest);
+    if (version != kVersion)
+        fail("mesh.format", "the binary mesh has version " + std::to_string(version) +
+                                "; this program reads version 1");
+    if (flags > (kNormals | kUvs)) fail("mesh.format", "the binary mesh has unknown parts");
+    const std::uint64_t floats =
+        3 + ((flags & kNormals) != 0 ? 3U : 0) + ((flags & kUvs) != 0 ? 2U : 0);
+    if (bytes.size() != kHeader + 4 * (floats * vertices + indices) + kChecksum)
+        fail("mesh.truncated", "the binary mesh has another length than its counts say");
+    std::string_view tail = bytes.substr(bytes.size() - kChecksum);
+    if (checksum(bytes.substr(0, bytes.size() - kChecksum)) != get<std::uint64_t>(tail))
+        fail("mesh.checksum", "the binary mesh is damaged: its checksum differs");
+    if (indices % 3 != 0) fail("mesh.truncated", "the number of indices is no multiple of three");
+    if (indices == 0) fail("mesh.empty", "the binary mesh holds no triangles");
+    checkTriangles(indices / 3, fileName);
+    Mesh mesh;
+    getAll<3>(rest, vertices, mesh.positions, fileName, true);
+    // Normals that are no numbers are repaired later, as in every other format.
+    if ((flags & kNormals) != 0) getAll<3>(rest, vertices, mesh.normals, fileName, false);
+    if ((flags & kUvs) != 0) getAll<2>(rest, vertices, mesh.uvs, fileName, true);
+    mesh.indices.resize(indices);
+    for (std::uint32_t& index : mesh.indices) {
+        index = get<std::uint32_t>(rest);
+        if (index >= vertices) fail("mesh.index", "an index is out of range");
+    }
+    return mesh;
+}
+
+}  // namespace farol::generator::io

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "generator/io/rows.h"
+#include "generator/mesh.h"
+
+/// One reader and writer a format; mesh_file.cpp chooses among them. Readers throw Error mesh.*;
+/// they check indices and counts, but leave normals and winding to repair.h.
+namespace farol::generator::io {
+
+std::string encodeText3d(const Mesh& mesh);
+std::string encodeObj(const Mesh& mesh);
+std::string encodePly(const Mesh& mesh);
+std::string encodeBinary(const Mesh& mesh);
+
+bool looksLikeBinary(std::string_view bytes);
+bool looksLikePly(std::string_view bytes);
+bool looksLikeObj(std::string_view bytes);
+
+Mesh decodeBinary(std::string_view bytes, const std::string& fileName);
+Mesh decodePly(std::string_view bytes, const std::string& fileName, bool facesNeeded);
+Mesh decodeObj(std::string_view bytes, const std::string& fileName);
+
+/// Blocks parted by blank lines: positions, [normals], [UVs], indices.
+Mesh decodeBlocks(const NumberRows& rows);
+/// A first row of two counts: vertices and indices (or triangles).
+Mesh decodeCounted(const NumberRows& rows);
+/// A first row of one count: indices then vertices, or points, or points and normals.
+Mesh decodeSingleCount(const NumberRows& rows);
+/// No indices: every three vertices are a triangle.
+Mesh decodeSoup(const NumberRows& rows);
+/// Up to four lists, each on one line or ended by `;`: positions, indices, normals, UVs.
+Mesh decodeLists(std::string_view bytes, const std::string& fileName);
+bool looksLikeLists(std::string_view bytes);
+
+/// Throws limit.triangles when `triangles` is over kMaxTriangles.
+void checkTriangles(std::size_t triangles, const std::string& fileName);
+
+}  // namespace farol::generator::io

@@ -1,0 +1,92 @@
+#include <algorithm>
+
+#include "generator/io/formats.h"
+
+namespace farol::generator::io {
+namespace {
+
+bool isBlank(std::string_view text) {
+    return text.find_first_not_of(" \t\r\n;,") == std::string_view::npos;
+}
+
+/// Pieces of `text` between `separator`s that hold more than blanks; at most five are looked for.
+std::vector<std::string_view> pieces(std::string_view text, char separator) {
+    std::vector<std::string_view> out;
+    while (!text.empty() && out.size() < 5) {
+        const std::size_t end = std::min(text.find(separator), text.size());
+        if (!isBlank(text.substr(0, end))) out.push_back(text.substr(0, end));
+        text.remove_prefix(std::min(end + 1, text.size()));
+    }
+    return out;
+}
+
+std::vector<std::string_view> split(std::string_view bytes) {
+    const auto lines = pieces(bytes, '\n');
+    return lines.size() == 1 ? pieces(bytes, ';') : lines;
+}
+
+/// All numbers of a list, with the line that the list stands on.
+NumberRows numbersOf(std::string_view list, std::string_view all, const std::string& file) {
+    const auto before = static_cast<std::size_t>(list.data() - all.data());
+    NumberRows rows = parseRows(list, file);
+    const auto skipped =
+        std::count(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(before), '\n');
+    for (Row& row : rows.rows) row.line += static_cast<int>(skipped);
+    return rows;
+}
+
+template <int N, class Vector>
+std::vector<Vector> vectorsOf(const NumberRows& rows, const std::string& what) {
+    if (rows.values.size() % N != 0)
+        rows.refuse("mesh.truncated", rows.rows[0],
+                    "the list of " + what + " has " + std::to_string(rows.values.size()) +
+                        " numbers, not a multiple of " + std::to_string(N));
+    std::vector<Vector> out(rows.values.size() / N);
+    for (std::size_t i = 0; i < rows.values.size(); ++i)
+        out[i / N][static_cast<int>(i % N)] = static_cast<float>(rows.values[i]);
+    return out;
+}
+
+template <class Vector>
+void checkAsLong(const NumberRows& rows, const std::vector<Vector>& list, std::size_t positions,
+                 const std::string& what) {
+    if (list.size() != positions)
+        rows.refuse("mesh.truncated", rows.rows[0],
+                    "there are " + std::to_string(list.size()) + " " + what + " for " +
+                        std::to_string(positions) + " positions");
+}
+
+}  // namespace
+
+bool looksLikeLists(std::string_view bytes) {
+    if (bytes.find(';') == std::string_view::npos) return false;
+    const std::size_t count = split(bytes).size();
+    return count >= 2 && count <= 4;
+}
+
+Mesh decodeLists(std::string_view bytes, const std::string& file) {
+    const auto lists = split(bytes);
+    Mesh mesh;
+    mesh.positions = vectorsOf<3, glm::vec3>(numbersOf(lists[0], bytes, file), "positions");
+    const NumberRows indices = numbersOf(lists[1], bytes, file);
+    for (const double value : indices.values)
+        mesh.indices.push_back(indexIn(indices, indices.rows[0], value, mesh.positions.size()));
+    if (mesh.indices.size() % 3 != 0)
+        indices.refuse("mesh.truncated", indices.rows[0],
+                       "the number of indices, " + std::to_string(mesh.indices.size()) +
+                           ", is not a multiple of three");
+    checkTriangles(mesh.indices.size() / 3, file);
+    if (lists.size() > 2) {
+        const NumberRows rows = numbersOf(lists[2], bytes, file);
+        mesh.normals = vectorsOf<3, glm::vec3>(rows, "normals");
+        checkAsLong(rows, mesh.normals, mesh.positions.size(), "normals");
+    }
+    if (lists.size() > 3) {
+        const NumberRows rows = numbersOf(lists[3], bytes, file);
+        mesh.uvs = vectorsOf<2, glm::vec2>(rows, "texture coordinates");
+        checkAsLong(rows, mesh.uvs, mesh.positions.size(), "texture coordinates");
+    }
+    return mesh;
+}
+
+}  // namespace farol::generator::io

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "generator/mesh.h"
+#include "scene/error.h"
+
+/// Mesh files in and out.
+namespace farol::generator::io {
+
+/// What `encodeMesh` writes: our blank-line-separated text, Wavefront OBJ, ascii PLY, and our
+/// binary form (binary.h).
+enum class Format { text3d, obj, ply, binary };
+
+/// The format that a file name asks for (.3d .obj .ply .3db, any case), or nothing.
+std::optional<Format> formatOf(const std::string& fileName);
+
+/// The file's bytes. Floats are written shortest such that they read back equal: decodeMesh of
+/// the result is the same mesh. Precondition: the mesh's indices are in range.
+std::string encodeMesh(const Mesh& mesh, Format format);
+
+/// Reads a mesh of any known form; the content decides, the name only where the content cannot
+/// (.tri). Missing normals are computed; what is repaired is a warning in `findings`. Throws Error
+/// mesh.* with file and line, limit.triangles over kMaxTriangles.
+Mesh decodeMesh(std::string_view bytes, const std::string& fileName, Diagnostics& findings);
+
+/// The points of a profile: a PLY file's vertices, or rows of two or three numbers. Throws mesh.*.
+std::vector<glm::dvec3> decodeProfile(std::string_view bytes, const std::string& fileName);
+
+}  // namespace farol::generator::io

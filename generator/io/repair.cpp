@@ -1,0 +1,138 @@
+#include "generator/io/repair.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <numeric>
+#include <unordered_map>
+
+namespace farol::generator::io {
+namespace {
+
+using glm::dvec3;
+
+/// Numbers positions so that equal ones share a number (-0 equals +0).
+std::vector<std::uint32_t> weld(const std::vector<glm::vec3>& positions) {
+    const auto count = static_cast<std::uint32_t>(positions.size());
+    std::vector<std::uint32_t> order(count), welded(count);
+    std::iota(order.begin(), order.end(), 0U);
+    const auto less = [&](std::uint32_t a, std::uint32_t b) {
+        const glm::vec3 &p = positions[a], &q = positions[b];
+        if (p.x != q.x) return p.x < q.x;
+        if (p.y != q.y) return p.y < q.y;
+        return p.z < q.z;
+    };
+    std::sort(order.begin(), order.end(), less);
+    for (std::uint32_t i = 0; i < count; ++i)
+        welded[order[i]] = i > 0 && !less(order[i - 1], order[i]) ? welded[order[i - 1]] : order[i];
+    return welded;
+}
+
+dvec3 faceNormal(const std::vector<glm::vec3>& p, const std::uint32_t* corner) {
+    const dvec3 a(p[corner[0]]);
+    return glm::cross(dvec3(p[corner[1]]) - a, dvec3(p[corner[2]]) - a);
+}
+
+void warn(Diagnostics& findings, const char* code, const std::string& file,
+          const std::string& message) {
+    Location where;
+    where.file = file;
+    findings.push_back({Severity::warning, code, std::move(where), message, ""});
+}
+
+/// Replaces what is no direction and normalises the rest; returns how many were replaced.
+std::size_t mendNormals(Mesh& mesh) {
+    // Files with six digits give lengths that are off by 1e-6: those stay as they are.
+    constexpr double kTolerance = 1e-5;
+    std::size_t replaced = 0;
+    std::vector<glm::vec3> computed;
+    for (std::size_t i = 0; i < mesh.normals.size(); ++i) {
+        const double squared = glm::dot(dvec3(mesh.normals[i]), dvec3(mesh.normals[i]));
+        if (squared > 0 && std::isfinite(squared)) {
+            if (std::abs(squared - 1) > kTolerance)
+                mesh.normals[i] = glm::vec3(dvec3(mesh.normals[i]) / std::sqrt(squared));
+            continue;
+        }
+        if (computed.empty()) computed = vertexNormals(mesh.positions, mesh.indices);
+        mesh.normals[i] = computed[i];
+        ++replaced;
+    }
+    return replaced;
+}
+
+}  // namespace
+
+std::vector<glm::vec3> vertexNormals(const std::vector<glm::vec3>& positions,
+                                     const std::vector<std::uint32_t>& indices) {
+    std::vector<dvec3> sums(positions.size(), dvec3(0));
+    for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
+        const dvec3 normal = faceNormal(positions, &indices[i]);
+        const double length = glm::length(normal);
+        if (!(length > 0)) continue;
+        for (std::size_t k = 0; k < 3; ++k) sums[indices[i + k]] += normal / length;
+    }
+    std::vector<glm::vec3> normals;
+    normals.reserve(sums.size());
+    for (const dvec3& sum : sums) {
+        const double length = glm::length(sum);
+        // Opposite faces cancel up to rounding: no direction is better than another then.
+        normals.emplace_back(length > 1e-9 ? glm::vec3(sum / length) : glm::vec3(0, 1, 0));
+    }
+    return normals;
+}
+
+double signedVolume(const Mesh& mesh) {
+    double volume = 0;
+    const auto& p = mesh.positions;
+    if (p.empty()) return 0;
+    const dvec3 origin(p[0]);  // near the mesh, so that no digits are lost far from the origin
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
+        volume += glm::dot(dvec3(p[mesh.indices[i]]) - origin, faceNormal(p, &mesh.indices[i])) / 6;
+    return volume;
+}
+
+bool isClosed(const Mesh& mesh) {
+    const std::vector<std::uint32_t> welded = weld(mesh.positions);
+    std::unordered_map<std::uint64_t, std::int32_t> balance;
+    balance.reserve(mesh.indices.size() / 2);
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+        const std::uint32_t v[3] = {welded[mesh.indices[i]], welded[mesh.indices[i + 1]],
+                                    welded[mesh.indices[i + 2]]};
+        if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) continue;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::uint64_t a = v[k], b = v[(k + 1) % 3];
+            balance[std::min(a, b) << 32U | std::max(a, b)] += a < b ? 1 : -1;
+        }
+    }
+    return !balance.empty() && std::all_of(balance.begin(), balance.end(),
+                                           [](const auto& edge) { return edge.second == 0; });
+}
+
+void repair(Mesh& mesh, const std::string& fileName, Diagnostics& findings) {
+    const bool given = !mesh.normals.empty();
+    if (signedVolume(mesh) < 0 && isClosed(mesh)) {
+        for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
+            std::swap(mesh.indices[i + 1], mesh.indices[i + 2]);
+        // Normals that agree with the faces are turned with them; those that already look
+        // outwards are what the file got right.
+        double outward = 0;
+        for (std::size_t i = 0; given && i + 2 < mesh.indices.size(); i += 3)
+            outward += glm::dot(faceNormal(mesh.positions, &mesh.indices[i]),
+                                dvec3(mesh.normals[mesh.indices[i]]));
+        if (outward < 0)
+            for (glm::vec3& normal : mesh.normals) normal = -normal;
+        warn(findings, "mesh.inward", fileName,
+             "the closed mesh \"" + fileName + "\" faces inwards: it was turned");
+    }
+    if (!given) {
+        mesh.normals = vertexNormals(mesh.positions, mesh.indices);
+        return;
+    }
+    const std::size_t replaced = mendNormals(mesh);
+    if (replaced > 0)
+        warn(findings, "mesh.normal", fileName,
+             std::to_string(replaced) + " normals of \"" + fileName +
+                 "\" are no directions: the faces' own were taken");
+}
+
+}  // namespace farol::generator::io

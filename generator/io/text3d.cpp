@@ -1,0 +1,195 @@
+#include <charconv>
+
+#include "generator/io/formats.h"
+#include "generator/io/writer.h"
+
+namespace farol::generator::io {
+namespace {
+
+template <int N, class Vector>
+std::vector<Vector> vectorsOf(const NumberRows& rows, std::size_t begin, std::size_t end) {
+    std::vector<Vector> out;
+    out.reserve(end - begin);
+    for (std::size_t i = begin; i < end; ++i) {
+        const Row& row = rows.rows[i];
+        if (row.count != N)
+            rows.refuse(
+                "mesh.syntax", row,
+                "expected " + std::to_string(N) + " numbers, not " + std::to_string(row.count));
+        Vector value;
+        for (int k = 0; k < N; ++k) value[k] = static_cast<float>(rows.at(row)[k]);
+        out.push_back(value);
+    }
+    return out;
+}
+
+/// Indices of rows [begin, end), any number a row.
+std::vector<std::uint32_t> indicesOf(const NumberRows& rows, std::size_t begin, std::size_t end,
+                                     std::size_t vertices) {
+    std::vector<std::uint32_t> out;
+    for (std::size_t i = begin; i < end; ++i)
+        for (std::uint32_t k = 0; k < rows.rows[i].count; ++k)
+            out.push_back(indexIn(rows, rows.rows[i], rows.at(rows.rows[i])[k], vertices));
+    if (out.size() % 3 != 0)
+        rows.refuse("mesh.truncated", rows.rows[end - 1],
+                    "the number of indices, " + std::to_string(out.size()) +
+                        ", is not a multiple of three");
+    checkTriangles(out.size() / 3, rows.file);
+    return out;
+}
+
+void checkAsLong(const NumberRows& rows, std::size_t at, std::size_t got, std::size_t want,
+                 const std::string& what) {
+    if (got != want)
+        rows.refuse("mesh.truncated", rows.rows[at],
+                    "there are " + std::to_string(got) + " " + what + " for " +
+                        std::to_string(want) + " positions");
+}
+
+/// True when a row of three could be a triangle: whole numbers, in range and all different.
+bool couldBeTriangle(const NumberRows& rows, const Row& row, std::size_t vertices) {
+    const double* v = rows.at(row);
+    if (row.count != 3 || v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) return false;
+    for (int k = 0; k < 3; ++k)
+        if (!isCount(v[k]) || v[k] >= static_cast<double>(vertices)) return false;
+    return true;
+}
+
+bool couldBeTriangles(const NumberRows& rows, std::size_t begin, std::size_t end,
+                      std::size_t vertices) {
+    for (std::size_t i = begin; i < end; ++i)
+        if (!couldBeTriangle(rows, rows.rows[i], vertices)) return false;
+    return true;
+}
+
+}  // namespace
+
+std::string encodeText3d(const Mesh& mesh) {
+    Writer out;
+    for (const glm::vec3& p : mesh.positions) out.row({p.x, p.y, p.z});
+    out.text("\n");
+    for (const glm::vec3& n : mesh.normals) out.row({n.x, n.y, n.z});
+    if (!mesh.normals.empty()) out.text("\n");
+    for (const glm::vec2& uv : mesh.uvs) out.row({uv.x, uv.y});
+    if (!mesh.uvs.empty()) out.text("\n");
+    for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
+        out.number(mesh.indices[i]);
+        out.text("\n");
+    }
+    return out.take();
+}
+
+Mesh decodeBlocks(const NumberRows& rows) {
+    std::vector<std::size_t> starts;
+    for (std::size_t i = 0; i < rows.rows.size(); ++i)
+        if (rows.rows[i].block == starts.size()) starts.push_back(i);
+    starts.push_back(rows.rows.size());
+    const std::size_t last = starts.size() - 2;  // the block of indices
+    Mesh mesh;
+    mesh.positions = vectorsOf<3, glm::vec3>(rows, 0, starts[1]);
+    for (std::size_t b = 1; b < last; ++b) {
+        const Row& row = rows.rows[starts[b]];
+        const std::size_t size = starts[b + 1] - starts[b];
+        if (row.count == 3 && mesh.normals.empty() && mesh.uvs.empty()) {
+            checkAsLong(rows, starts[b], size, mesh.positions.size(), "normals");
+            mesh.normals = vectorsOf<3, glm::vec3>(rows, starts[b], starts[b + 1]);
+        } else if (row.count == 2 && mesh.uvs.empty()) {
+            checkAsLong(rows, starts[b], size, mesh.positions.size(), "texture coordinates");
+            mesh.uvs = vectorsOf<2, glm::vec2>(rows, starts[b], starts[b + 1]);
+        } else {
+            rows.refuse("mesh.format", row,
+                        "expected normals, texture coordinates or indices in this block");
+        }
+    }
+    mesh.indices = indicesOf(rows, starts[last], starts[last + 1], mesh.positions.size());
+    return mesh;
+}
+
+Mesh decodeCounted(const NumberRows& rows) {
+    const Row& head = rows.rows[0];
+    std::size_t at = 1;
+    double countV = rows.at(head)[0], countI = 0;
+    if (head.count == 2) {
+        countI = rows.at(head)[1];
+    } else {
+        countI = rows.at(rows.rows[1])[0];
+        at = 2;
+    }
+    const std::size_t left = rows.rows.size() - at;
+    if (!isCount(countV) || !isCount(countI))
+        rows.refuse("mesh.count", head, "expected the numbers of vertices and of indices");
+    if (countV < 1 || countI < 1)
+        rows.refuse("mesh.empty", head, "the mesh file holds no triangles");
+    if (countV > static_cast<double>(left) || countI > 3.0 * static_cast<double>(left))
+        rows.refuse("mesh.truncated", head,
+                    "the file is shorter than the counts in its first line say");
+    const auto n = static_cast<std::size_t>(countV), said = static_cast<std::size_t>(countI);
+    Mesh mesh;
+    mesh.positions = vectorsOf<3, glm::vec3>(rows, at, at + n);
+    at += n;
+    // How many rows the indices take: three a row (counted one by one, or as triangles), or one.
+    const std::size_t rest = rows.rows.size() - at;
+    for (const std::size_t indexRows : {(said + 2) / 3, said}) {
+        if (rest < indexRows || (rest - indexRows) % n != 0) continue;
+        const std::size_t extra = (rest - indexRows) / n;
+        if (extra > 2) continue;
+        // Indices come last, but some write the normals after them.
+        const bool early =
+            extra > 0 && couldBeTriangles(rows, at, at + indexRows, n) &&
+            !(rows.rows.back().count != 2 &&
+              couldBeTriangles(rows, rows.rows.size() - indexRows, rows.rows.size(), n));
+        std::size_t vectors = early ? at + indexRows : at;
+        for (std::size_t k = 0; k < extra; ++k, vectors += n) {
+            if (rows.rows[vectors].count == 2 && mesh.uvs.empty())
+                mesh.uvs = vectorsOf<2, glm::vec2>(rows, vectors, vectors + n);
+            else
+                mesh.normals = vectorsOf<3, glm::vec3>(rows, vectors, vectors + n);
+        }
+        const std::size_t indices = early ? at : vectors;
+        mesh.indices = indicesOf(rows, indices, indices + indexRows, n);
+        return mesh;
+    }
+    rows.refuse("mesh.truncated", rows.rows.back(),
+                "the number of lines does not match the counts in the first line");
+}
+
+Mesh decodeSingleCount(const NumberRows& rows) {
+    const Row& head = rows.rows[0];
+    const double said = *rows.at(head);
+    const std::size_t left = rows.rows.size() - 1;
+    if (!isCount(said) || said < 1)
+        rows.refuse("mesh.count", head, "expected a number of vertices or of indices");
+    if (said > static_cast<double>(left))
+        rows.refuse("mesh.truncated", head,
+                    "the file says " + std::to_string(static_cast<long long>(said)) +
+                        " lines but only " + std::to_string(left) + " follow");
+    const auto n = static_cast<std::size_t>(said);
+    Mesh mesh;
+    if (rows.rows[1].count == 1) {  // indices, then x y z nx ny nz u v
+        const std::size_t begin = 1 + n;
+        for (std::size_t i = begin; i < rows.rows.size(); ++i) {
+            const Row& row = rows.rows[i];
+            if (row.count != 8)
+                rows.refuse("mesh.syntax", row, "expected 8 numbers: x y z nx ny nz u v");
+            const double* v = rows.at(row);
+            mesh.positions.emplace_back(v[0], v[1], v[2]);
+            mesh.normals.emplace_back(v[3], v[4], v[5]);
+            mesh.uvs.emplace_back(v[6], v[7]);
+        }
+        mesh.indices = indicesOf(rows, 1, begin, mesh.positions.size());
+        return mesh;
+    }
+    if (left != n && left != 2 * n)
+        rows.refuse("mesh.truncated", rows.rows.back(),
+                    "the file says " + std::to_string(n) + " vertices but holds " +
+                        std::to_string(left) + " lines");
+    if (n % 3 != 0)
+        rows.refuse("mesh.truncated", head, "the number of vertices is not a multiple of three");
+    checkTriangles(n / 3, rows.file);
+    mesh.positions = vectorsOf<3, glm::vec3>(rows, 1, 1 + n);
+    if (left == 2 * n) mesh.normals = vectorsOf<3, glm::vec3>(rows, 1 + n, 1 + 2 * n);
+    for (std::uint32_t i = 0; i < n; ++i) mesh.indices.push_back(i);
+    return mesh;
+}
+
+}  // namespace farol::generator::io

@@ -1,0 +1,24 @@
+#include "generator/primitives/cone.h"
+
+#include "generator/primitives/frustum.h"
+
+namespace farol::generator::primitives {
+
+Entry coneEntry() {
+    return {{"cone",
+             "a cone, base in XZ, apex at y = HEIGHT",
+             {lengthArgument("RADIUS", "radius of the base"), lengthArgument("HEIGHT", "height"),
+              levelArgument("SLICES", 3, kDefaultSlices, "divisions about Y"),
+              levelArgument("STACKS", 1, 8, "divisions of the side along its height")},
+             2,
+             false},
+            [](const Call& call, const std::string&, scene::UvLayout uv) {
+                return frustum(call.length(0), 0, call.length(1), call.count(2), call.count(3), uv,
+                               FrustumAtlas::cone);
+            },
+            [](const Call& call, const std::string&) {
+                return frustumTriangles(call.length(0), 0, call.count(2), call.count(3));
+            }};
+}
+
+}  // namespace farol::generator::primitives

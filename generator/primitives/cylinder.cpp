@@ -1,0 +1,24 @@
+#include "generator/primitives/cylinder.h"
+
+#include "generator/primitives/frustum.h"
+
+namespace farol::generator::primitives {
+
+Entry cylinderEntry() {
+    return {{"cylinder",
+             "a closed cylinder, base in XZ, top at y = HEIGHT",
+             {lengthArgument("RADIUS", "radius"), lengthArgument("HEIGHT", "height"),
+              levelArgument("SLICES", 3, kDefaultSlices, "divisions about Y"),
+              levelArgument("STACKS", 1, 1, "divisions of the side along its height")},
+             2,
+             false},
+            [](const Call& call, const std::string&, scene::UvLayout uv) {
+                return frustum(call.length(0), call.length(0), call.length(1), call.count(2),
+                               call.count(3), uv, FrustumAtlas::cylinder);
+            },
+            [](const Call& call, const std::string&) {
+                return frustumTriangles(1, 1, call.count(2), call.count(3));
+            }};
+}
+
+}  // namespace farol::generator::primitives

@@ -1,0 +1,25 @@
+#include "generator/primitives/ellipsoid.h"
+
+#include "generator/primitives/sphere.h"
+
+namespace farol::generator::primitives {
+
+Entry ellipsoidEntry() {
+    return {{"ellipsoid",
+             "an ellipsoid about the origin, poles on Y",
+             {lengthArgument("RX", "half axis along X"), lengthArgument("RY", "half axis along Y"),
+              lengthArgument("RZ", "half axis along Z"),
+              levelArgument("SLICES", 3, kDefaultSlices, "divisions about Y"),
+              levelArgument("STACKS", 2, kDefaultStacks, "divisions from pole to pole")},
+             3,
+             false},
+            [](const Call& call, const std::string&, scene::UvLayout uv) {
+                return ellipsoid({call.length(0), call.length(1), call.length(2)}, call.count(3),
+                                 call.count(4), uv);
+            },
+            [](const Call& call, const std::string&) {
+                return 2 * call.count(3) * (call.count(4) - 1);
+            }};
+}
+
+}  // namespace farol::generator::primitives

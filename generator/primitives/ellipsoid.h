@@ -1,0 +1,10 @@
+#pragma once
+
+#include "generator/entry.h"
+
+namespace farol::generator::primitives {
+
+/// The sphere's mesh (sphere.h) with a half axis of its own along each of X, Y and Z.
+Entry ellipsoidEntry();
+
+}  // namespace farol::generator::primitives

@@ -1,0 +1,132 @@
+#include "generator/primitives/frustum.h"
+
+#include "generator/builder.h"
+
+namespace farol::generator::primitives {
+namespace {
+
+using scene::UvLayout;
+
+/// Where the parts of a frustum lie in the texture.
+class Texturing {
+  public:
+    Texturing(UvLayout layout, FrustumAtlas atlas, std::size_t slices, std::size_t stacks)
+        : layout_(layout), atlas_(atlas), slices_(slices), stacks_(stacks) {}
+
+    /// `slice` may be a half: the middle of a slice, at an apex.
+    glm::dvec2 side(double slice, std::size_t stack, const SinCos& a, double share) const {
+        const double u = slice / static_cast<double>(slices_), v = fraction(stack, stacks_);
+        if (layout_ == UvLayout::layout2017) return {1 - u, v};
+        if (layout_ == UvLayout::face) return {share > 0 ? u : 0.5, v};
+        if (atlas_ == FrustumAtlas::cone) return disc({0.75, 0.5}, 0.25 * share, a);
+        return {u, kAtlasSide * v};
+    }
+
+    glm::dvec2 cap(bool top, std::size_t slice, const SinCos& a, double share) const {
+        if (layout_ == UvLayout::layout2017) return {fraction(slice, slices_), share > 0 ? 0 : 1};
+        if (layout_ == UvLayout::face) return disc({0.5, 0.5}, 0.5 * share, a);
+        if (atlas_ == FrustumAtlas::cone) return disc({0.25, 0.5}, 0.25 * share, a);
+        return disc({top ? 0.4375 : 0.8125, 0.8125}, 0.1875 * share, a);
+    }
+
+  private:
+    static constexpr double kAtlasSide = 0.625;
+
+    static glm::dvec2 disc(const glm::dvec2& centre, double radius, const SinCos& a) {
+        return {centre.x + radius * a.sin, centre.y + radius * a.cos};
+    }
+
+    UvLayout layout_;
+    FrustumAtlas atlas_;
+    std::size_t slices_, stacks_;
+};
+
+void addCap(Builder& builder, const Texturing& texturing, bool top, double radius, double y,
+            std::size_t slices) {
+    const glm::dvec3 normal(0, top ? 1 : -1, 0);
+    for (std::size_t i = 0; i < slices; ++i) {
+        const SinCos a = turn(i, slices), b = turn(i + 1, slices);
+        const auto centre = builder.vertex({0, y, 0}, normal, texturing.cap(top, i, a, 0));
+        const auto first = builder.vertex({radius * a.sin, y, radius * a.cos}, normal,
+                                          texturing.cap(top, i, a, 1));
+        const auto second = builder.vertex({radius * b.sin, y, radius * b.cos}, normal,
+                                           texturing.cap(top, i + 1, b, 1));
+        builder.triangle(centre, top ? first : second, top ? second : first);
+    }
+}
+
+}  // namespace
+
+Mesh frustum(double bottom, double top, double height, std::size_t slices, std::size_t stacks,
+             UvLayout uv, FrustumAtlas atlas) {
+    Builder builder((stacks + 1) * (slices + 1) + 6 * slices,
+                    frustumTriangles(bottom, top, slices, stacks));
+    const Texturing texturing(uv, atlas, slices, stacks);
+    const double slope = (bottom - top) / height, widest = std::max(bottom, top);
+    const auto radiusAt = [&](std::size_t j) {
+        return bottom * fraction(stacks - j, stacks) + top * fraction(j, stacks);
+    };
+    const auto row = [&](std::size_t j) {  // slices + 1 vertices, or one a slice at an apex
+        const std::uint32_t start = builder.next();
+        const double radius = radiusAt(j), y = height * fraction(j, stacks);
+        const bool apex = radius == 0;
+        for (std::size_t i = 0; i < slices + (apex ? 0 : 1); ++i) {
+            const SinCos a = apex ? turn(2 * i + 1, 2 * slices) : turn(i, slices);
+            const double slice = static_cast<double>(i) + (apex ? 0.5 : 0);
+            builder.vertex({radius * a.sin, y, radius * a.cos}, {a.sin, slope, a.cos},
+                           texturing.side(slice, j, a, radius / widest));
+        }
+        return start;
+    };
+    std::uint32_t low = row(0);
+    for (std::size_t j = 0; j < stacks; ++j) {
+        const std::uint32_t high = row(j + 1);
+        for (std::uint32_t i = 0; i < slices; ++i) {
+            if (radiusAt(j) > 0) builder.triangle(low + i, low + i + 1, high + i);
+            if (radiusAt(j + 1) > 0)
+                builder.triangle(low + i + (radiusAt(j) > 0 ? 1 : 0), high + i + 1, high + i);
+        }
+        low = high;
+    }
+    if (bottom > 0) addCap(builder, texturing, false, bottom, 0, slices);
+    if (top > 0) addCap(builder, texturing, true, top, height, slices);
+    return builder.take();
+}
+
+std::size_t frustumTriangles(double bottom, double top, std::size_t slices, std::size_t stacks) {
+    // Each end has a disc, or lacks half of its row of quads: one triangle a slice either way.
+    const std::size_t discs = (bottom > 0 ? 1 : 0) + (top > 0 ? 1 : 0);
+    return slices * (2 * stacks - (2 - discs) + discs);
+}
+
+Entry frustumEntry() {
+    Argument bottom = lengthArgument("BOTTOM", "radius of the base; 0 is an apex");
+    Argument top = lengthArgument("TOP", "radius of the top; 0 is an apex");
+    bottom.min = top.min = 0;
+    return {
+        {"frustum",
+         "the frustum of a cone, base in XZ, top at y = HEIGHT",
+         {bottom, top, lengthArgument("HEIGHT", "height"),
+          levelArgument("SLICES", 3, kDefaultSlices, "divisions about Y"),
+          levelArgument("STACKS", 1, 8, "divisions of the side along its height")},
+         3,
+         false},
+        [](const Call& call, const std::string&, UvLayout uv) {
+            return frustum(call.length(0), call.length(1), call.length(2), call.count(3),
+                           call.count(4), uv, FrustumAtlas::cylinder);
+        },
+        [](const Call& call, const std::string&) {
+            return frustumTriangles(call.length(0), call.length(1), call.count(3), call.count(4));
+        },
+        [](const Call& call) -> std::string {
+            const double low = call.length(0), high = call.length(1);
+            if (low == 0 && high == 0)
+                return "one of the arguments BOTTOM and TOP of frustum must be over 0";
+            for (const double radius : {low, high})
+                if (radius > 0 && radius < kMinLength)
+                    return "the arguments BOTTOM and TOP of frustum must be 0 or at least 1e-06";
+            return "";
+        }};
+}
+
+}  // namespace farol::generator::primitives

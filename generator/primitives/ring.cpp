@@ -1,0 +1,58 @@
+#include "generator/primitives/ring.h"
+
+#include "generator/builder.h"
+
+namespace farol::generator::primitives {
+
+Mesh ring(double inner, double outer, std::size_t slices) {
+    Builder builder(4 * (slices + 1), 4 * slices);
+    for (const bool up : {true, false}) {
+        const glm::dvec3 normal(0, up ? 1 : -1, 0);
+        const std::uint32_t start = builder.next();
+        for (std::size_t i = 0; i <= slices; ++i) {
+            const SinCos a = turn(i, slices);
+            // At the middle of a disc, each slice has its own texture coordinate.
+            const double shift = inner == 0 ? 0.5 / static_cast<double>(slices) : 0;
+            const double u = fraction(i, slices);
+            builder.vertex({inner * a.sin, 0, inner * a.cos}, normal,
+                           {std::min(u + shift, 1.0), 0});
+            builder.vertex({outer * a.sin, 0, outer * a.cos}, normal, {u, 1});
+        }
+        for (std::uint32_t i = 0; i < slices; ++i) {
+            const std::uint32_t in = start + 2 * i, out = in + 1, inNext = in + 2, outNext = in + 3;
+            builder.triangle(in, up ? out : outNext, up ? outNext : out);
+            builder.triangleUnlessFlat(in, up ? outNext : inNext, up ? inNext : outNext);
+        }
+    }
+    return builder.take();
+}
+
+Entry ringEntry() {
+    Argument inner = lengthArgument("INNER", "radius of the hole; 0 is a disc");
+    inner.min = 0;
+    return {{"ring",
+             "a flat ring in XZ about the origin, with faces up and down",
+             {inner, lengthArgument("OUTER", "outer radius, over INNER"),
+              levelArgument("SLICES", 3, 2 * kDefaultSlices, "divisions about Y")},
+             2,
+             false},
+            [](const Call& call, const std::string&, scene::UvLayout) {
+                return ring(call.length(0), call.length(1), call.count(2));
+            },
+            [](const Call& call, const std::string&) {
+                return call.count(2) * (call.length(0) > 0 ? 4U : 2U);
+            },
+            [](const Call& call) -> std::string {
+                // A narrower ring folds in floats.
+                constexpr double kNarrowest = 1e-4;
+                const double hole = call.length(0), outer = call.length(1);
+                if (hole >= outer) return "the argument INNER of ring must be less than OUTER";
+                if (outer - hole < kNarrowest * outer)
+                    return "the arguments INNER and OUTER of ring must differ by 0.0001 of OUTER";
+                if (hole > 0 && hole < kMinLength)
+                    return "the argument INNER of ring must be 0 or at least 1e-06";
+                return "";
+            }};
+}
+
+}  // namespace farol::generator::primitives

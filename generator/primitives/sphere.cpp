@@ -1,0 +1,58 @@
+#include "generator/primitives/sphere.h"
+
+#include "generator/builder.h"
+
+namespace farol::generator::primitives {
+
+Mesh ellipsoid(const glm::dvec3& radii, std::size_t slices, std::size_t stacks,
+               scene::UvLayout uv) {
+    Builder builder((stacks - 1) * (slices + 1) + 2 * slices, 2 * slices * (stacks - 1));
+    const bool fromX = uv == scene::UvLayout::layout2017;
+    const glm::dvec3 inverse = 1.0 / radii;
+    for (std::size_t j = 1; j < stacks; ++j) {
+        const SinCos polar = turn(j, 2 * stacks);  // from the south pole
+        for (std::size_t i = 0; i <= slices; ++i) {
+            const SinCos a = turn(i, slices);
+            const glm::dvec3 unit(polar.sin * (fromX ? a.cos : a.sin), -polar.cos,
+                                  polar.sin * (fromX ? -a.sin : a.cos));
+            builder.vertex(radii * unit, unit * inverse,
+                           {fraction(i, slices), fraction(j, stacks)});
+        }
+    }
+    const auto at = [slices](std::size_t i, std::size_t j) {
+        return static_cast<std::uint32_t>((j - 1) * (slices + 1) + i);
+    };
+    for (std::size_t j = 1; j + 1 < stacks; ++j) {
+        for (std::size_t i = 0; i < slices; ++i) {
+            builder.triangle(at(i, j), at(i + 1, j), at(i, j + 1));
+            builder.triangle(at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
+        }
+    }
+    const double n = static_cast<double>(slices);
+    for (std::size_t i = 0; i < slices; ++i) {
+        const double middle = (static_cast<double>(i) + 0.5) / n;
+        const std::uint32_t south = builder.vertex({0, -radii.y, 0}, {0, -1, 0}, {middle, 0});
+        const std::uint32_t north = builder.vertex({0, radii.y, 0}, {0, 1, 0}, {middle, 1});
+        builder.triangle(south, at(i + 1, 1), at(i, 1));
+        builder.triangle(at(i, stacks - 1), at(i + 1, stacks - 1), north);
+    }
+    return builder.take();
+}
+
+Entry sphereEntry() {
+    return {{"sphere",
+             "a sphere about the origin, poles on Y",
+             {lengthArgument("RADIUS", "radius"),
+              levelArgument("SLICES", 3, kDefaultSlices, "divisions about Y"),
+              levelArgument("STACKS", 2, kDefaultStacks, "divisions from pole to pole")},
+             1,
+             false},
+            [](const Call& call, const std::string&, scene::UvLayout uv) {
+                return ellipsoid(glm::dvec3(call.length(0)), call.count(1), call.count(2), uv);
+            },
+            [](const Call& call, const std::string&) {
+                return 2 * call.count(1) * (call.count(2) - 1);
+            }};
+}
+
+}  // namespace farol::generator::primitives

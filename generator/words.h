@@ -1,0 +1,26 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scene/error.h"
+
+/// From what a scene says of a missing mesh to the words of a shape.
+namespace farol::generator {
+
+/// Words parted by blanks or commas; quotes are taken off. At most 16: no shape takes more.
+std::vector<std::string> splitWords(const std::string& text);
+
+/// The words that a file name says: "cone_1_2_4_3.3d" is {"cone", "1", "2", "4", "3"}, and
+/// "bezier_10.3d" {"patch", "teapot.patch", "10"}. Nothing when the name is no shape's.
+std::optional<std::vector<std::string>> wordsOfName(const std::string& fileName);
+
+/// The words of a generator comment as a shape takes them. A missing shape word is taken from the
+/// file's name ("2 3" for box_2_3.3d); a file that stands after the numbers goes first. Throws as
+/// parseCall where no order of the arguments makes sense; the older order, counts before lengths
+/// ("sphere 8 8 1"), is understood with a warning at `where`.
+std::vector<std::string> wordsOfComment(std::vector<std::string> words, const std::string& fileName,
+                                        const Location& where, Diagnostics& diagnostics);
+
+}  // namespace farol::generator

@@ -1,5 +1,7 @@
 #include "server/problem.h"
 
+#include <algorithm>
+#include <iterator>
 #include <map>
 
 namespace farol::server {
@@ -63,12 +65,19 @@ json toJson(const Diagnostics& diagnostics) {
     return out;
 }
 
+Diagnostics notable(const Diagnostics& diagnostics) {
+    Diagnostics out;
+    std::copy_if(diagnostics.begin(), diagnostics.end(), std::back_inserter(out),
+                 [](const Diagnostic& one) { return one.severity != Severity::info; });
+    return out;
+}
+
 std::string dump(const json& value, int indent) {
     return value.dump(indent, ' ', false, json::error_handler_t::replace);
 }
 
 http::Response problemResponse(const Problem& problem, const std::string& requestId) {
-    Diagnostics errors = problem.diagnostics;
+    Diagnostics errors = notable(problem.diagnostics);
     if (errors.empty()) {
         Diagnostic only;
         only.code = problem.code;

@@ -32,6 +32,9 @@ http::Response problemResponse(const Problem& problem, const std::string& reques
 /// [{code,severity,file,line,column,message,field}]; what is unknown is left out.
 nlohmann::json toJson(const Diagnostics& diagnostics);
 
+/// Those that a client should look at: without the infos.
+Diagnostics notable(const Diagnostics& diagnostics);
+
 /// UTF-8 text; invalid bytes become U+FFFD instead of an exception.
 std::string dump(const nlohmann::json& value, int indent = -1);
 

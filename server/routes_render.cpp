@@ -51,8 +51,8 @@ http::Response pictureResponse(Done<render::Picture> done) {
     response.set("Server-Timing", timing(picture.times, done.queueMs));
     response.set("X-Farol-Stats", asciiJson(toJson(picture.stats)));
     response.set("X-Farol-Camera", asciiJson(toJson(picture.camera)));
-    if (!picture.diagnostics.empty())
-        response.set("X-Farol-Diagnostics", diagnosticsHeader(picture.diagnostics));
+    if (const Diagnostics found = notable(picture.diagnostics); !found.empty())
+        response.set("X-Farol-Diagnostics", diagnosticsHeader(found));
     response.logged = {{"queueMs", std::to_string(done.queueMs)},
                        {"drawMs", std::to_string(picture.times.drawMs)},
                        {"encodeMs", std::to_string(picture.times.encodeMs)}};

@@ -110,7 +110,10 @@ http::Response Service::listScenes(const Call& call) {
     const std::size_t first = static_cast<std::size_t>(page - 1) * kPageSize;
     for (std::size_t i = first; i < std::min(all.size(), first + kPageSize); ++i) {
         const auto facts = known(all[i]);
-        scenes.push_back(describe(all[i], facts->report, facts->errors));
+        json entry = describe(all[i], facts->report, facts->errors);
+        if (facts->errors.empty())  // the whole list is at the scene's own address
+            entry["diagnostics"] = toJson(notable(facts->report.diagnostics));
+        scenes.push_back(std::move(entry));
     }
     const json body = {{"scenes", scenes}, {"page", page}, {"pages", pages}, {"total", all.size()}};
     return tagged(call, dump(body, 2) + "\n", "application/json");

@@ -20,7 +20,7 @@ namespace {
 
 // The page loads its own script, style and pictures and talks to its own server: nothing else.
 constexpr const char* kPagePolicy =
-    "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob:; "
+    "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; "
     "connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 // A scene's source is XML from strangers: a browser that opens it must not run what is in it.
 constexpr const char* kDataPolicy = "default-src 'none'; frame-ancestors 'none'; sandbox";

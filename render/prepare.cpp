@@ -9,6 +9,8 @@
 namespace farol::render {
 namespace {
 
+constexpr int kProfileCopies = 65;  // of a profile shown on its own
+
 /// The job's own document in front of its assets, so that a mesh file alone can be loaded.
 class WithDocument final : public scene::Assets {
   public:
@@ -65,6 +67,29 @@ scene::Scene sceneOfMesh(const std::string& name) {
     return scene;
 }
 
+/// A PLY profile has vertices but no faces; on its own it is shown turned about Y.
+bool isProfile(const scene::Model& model, const scene::Assets& assets) {
+    try {
+        generator::load(model, assets);
+    } catch (const Error& error) {
+        return error.code() == "mesh.empty";
+    }
+    return false;
+}
+
+/// The request's entity, in place of the scene's.
+void takeEntity(Prepared& prepared, const std::string& file) {
+    const auto path = scene::locate(*prepared.assets, file, {}, prepared.diagnostics);
+    if (!path)
+        throw Error("option.range", "entity=" + file + " is no file of this scene", {}, "entity");
+    scene::ReadOptions options;
+    options.name = *path;
+    scene::ReadResult result =
+        scene::read(prepared.assets->read(*path).value_or(""), options, *prepared.assets);
+    prepared.scene.entity = std::make_shared<scene::Scene>(std::move(result.scene));
+    for (Diagnostic& one : result.diagnostics) prepared.diagnostics.push_back(std::move(one));
+}
+
 void refuseErrors(Diagnostics& diagnostics, bool strict) {
     if (strict)
         for (Diagnostic& one : diagnostics)
@@ -84,6 +109,13 @@ Prepared prepare(const Job& job) {
         const std::string base = job.name.substr(job.name.find_last_of("/\\") + 1);
         prepared.scene = sceneOfMesh(base);
         prepared.assets = std::make_shared<WithDocument>(base, job.xml, prepared.assets);
+        scene::Model& model = prepared.scene.groups[0].models[0];
+        model.source = {scene::ModelSource::Kind::file, base, {}};
+        if (kind == "ply" && isProfile(model, *prepared.assets)) {
+            model.revolve = kProfileCopies;
+            model.twoSided = true;
+        }
+        model.source = {};
     } else {
         scene::ReadOptions options;
         options.name = job.name;
@@ -92,6 +124,7 @@ Prepared prepare(const Job& job) {
         prepared.scene = std::move(result.scene);
         prepared.diagnostics = std::move(result.diagnostics);
     }
+    if (job.options.entity) takeEntity(prepared, *job.options.entity);
     generator::resolve(prepared.scene, *prepared.assets, prepared.diagnostics);
     refuseErrors(prepared.diagnostics, job.strict);
     return prepared;

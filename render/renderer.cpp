@@ -10,6 +10,7 @@
 #include "render/gl/painter.h"
 #include "render/image_file.h"
 #include "render/instances.h"
+#include "render/overlay.h"
 #include "render/plan.h"
 #include "render/prepare.h"
 #include "scene/animation.h"
@@ -60,6 +61,20 @@ Image decodeTexture(const TextureRef& ref, const scene::Assets& assets) {
     return decodeImage(*bytes, ref.path, ref.where);
 }
 
+/// The debug overlay. No times of the clock: the same request must give the same bytes.
+std::string describe(const FramePlan& frame, double timeS) {
+    std::array<char, 400> text{};
+    const Stats& stats = frame.stats;
+    std::snprintf(text.data(), text.size(),
+                  "time %.3f s   %d x %d px, %d samples\n%d of %d models, %lld triangles\n"
+                  "%d draw calls, %d lights, %d textures\neye %.4g %.4g %.4g",
+                  timeS, frame.width, frame.height, frame.samples, stats.instances - stats.culled,
+                  stats.instances, static_cast<long long>(stats.triangles), stats.drawCalls,
+                  stats.lights, stats.textures, frame.camera.eye.x, frame.camera.eye.y,
+                  frame.camera.eye.z);
+    return text.data();
+}
+
 }  // namespace
 
 struct Renderer::State {
@@ -84,7 +99,7 @@ Picture Renderer::render(const Job& job) {
     picture.times.geometryMs = watch.lap();
 
     gl::Painter::Timings timings;
-    const Image image = state_->painter.draw(
+    Image image = state_->painter.draw(
         frame, [&](const TextureRef& ref) { return decodeTexture(ref, *prepared.assets); },
         frame.stats.drawCalls, timings);
     const double total = watch.lap();
@@ -93,6 +108,8 @@ Picture Renderer::render(const Job& job) {
     // What the painter did before drawing was decoding and uploading.
     picture.times.geometryMs += total - timings.drawMs - timings.readbackMs;
 
+    if (job.options.debug && job.options.layer == Layer::color)
+        drawText(image, describe(frame, job.options.timeS), std::max(1, image.height / 300));
     picture.bytes = encode(image, job.options.format, job.options.quality);
     picture.times.encodeMs = watch.lap();
     picture.contentType = contentType(job.options.format);

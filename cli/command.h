@@ -20,7 +20,12 @@ enum ExitCode {
 /// The command line is at fault: unknown shape, an argument out of range. Becomes kUsage.
 class UsageError : public std::runtime_error {
   public:
-    using std::runtime_error::runtime_error;
+    explicit UsageError(const std::string& message, std::string code = "usage")
+        : std::runtime_error(message), code_(std::move(code)) {}
+    const std::string& code() const { return code_; }
+
+  private:
+    std::string code_;
 };
 
 /// What the chosen subcommand does once its flags are read; returns the exit code.

@@ -76,8 +76,8 @@ int run(const Flags& flags, Report& report) {
     if (!flags.crop.empty()) wanted = parseCrop(flags.crop);
     if (!flags.diff.empty() && endingOf(flags.diff) != "png")
         throw UsageError("--diff " + flags.diff + ": must end with .png");
-    const auto [found, shown] =
-        grade::compare(open(flags.first, wanted), open(flags.second, wanted));
+    const render::Image first = open(flags.first, wanted), second = open(flags.second, wanted);
+    const auto [found, shown] = grade::compare(first, second);
     if (!flags.diff.empty()) writeOutput(flags.diff, render::encodePng(shown));
     report.set("width", found.width);
     report.set("height", found.height);

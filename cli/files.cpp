@@ -6,7 +6,6 @@
 
 #include <cerrno>
 #include <filesystem>
-#include <stdexcept>
 #include <system_error>
 
 #include "scene/error.h"
@@ -38,7 +37,7 @@ class File {
 std::string reason(int error) { return std::generic_category().message(error); }
 
 [[noreturn]] void cannotWrite(const std::string& path, int error) {
-    throw std::runtime_error("cannot write " + path + ": " + reason(error));
+    throw OutputError("cannot write " + path + ": " + reason(error));
 }
 
 void writeAll(int descriptor, std::string_view bytes, const std::string& path) {

@@ -79,7 +79,7 @@ generator::Mesh make(std::vector<std::string> words, scene::UvLayout uv) {
     } catch (const Error& error) {
         // The words are the command line, so the fault is in its use.
         if (error.code().rfind("shape.", 0) == 0 || error.code() == "limit.triangles")
-            throw UsageError(std::string(error.what()) + " [" + error.code() + "]");
+            throw UsageError(error.what(), error.code());
         throw;
     }
 }

@@ -1,8 +1,8 @@
-#include <algorithm>
 #include <exception>
 #include <string_view>
 
 #include "cli/command.h"
+#include "cli/files.h"
 
 namespace {
 
@@ -17,11 +17,14 @@ int run(const Action& action, Report& report) {
     try {
         return action(report);
     } catch (const UsageError& error) {
-        report.fail("usage", error.what());
+        report.fail(error.code(), error.what());
         return kUsage;
     } catch (const Error& error) {
         report.add(error.diagnostics());
         return error.code().rfind("option.", 0) == 0 ? kUsage : kInputFault;
+    } catch (const OutputError& error) {
+        report.fail("output.unwritable", error.what());
+        return kInternal;
     } catch (const std::exception& error) {
         report.fail("internal", error.what());
         return kInternal;
@@ -51,13 +54,11 @@ int main(int argc, char** argv) {
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
-        const bool asksForHelp = error.get_exit_code() == 0;
-        const bool wantsJson = std::any_of(argv, argv + argc, [](const char* argument) {
-            return std::string_view(argument) == "--json";
-        });
-        if (asksForHelp || !wantsJson) return app.exit(error) == 0 ? kDone : kUsage;
-        report.useJson();
-        report.fail("usage", error.what());
+        if (error.get_exit_code() == 0) return app.exit(error);  // --help and --version
+        // A flag before the fault may not have been read yet.
+        for (int i = 1; i < argc; ++i)
+            if (std::string_view(argv[i]) == "--json") report.useJson();
+        report.fail("usage", std::string(error.what()) + " (farol --help says more)");
         report.finish(kUsage);
         return kUsage;
     }

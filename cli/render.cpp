@@ -99,6 +99,7 @@ void addRender(CLI::App& root, Action& action) {
                 },
                 spec.help)
             ->type_name(spec.range)
+            ->take_last()
             ->group("Picture");
     command->callback(
         [&action, flags] { action = [flags](Report& report) { return run(*flags, report); }; });

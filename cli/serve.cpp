@@ -18,6 +18,14 @@ CLI::Option* addSeconds(CLI::App& command, const std::string& name, std::chrono:
         ->default_str(std::to_string(into.count() / 1000));
 }
 
+int run(const server::ServeOptions& options) {
+    try {
+        return server::serve(options) == 0 ? kDone : kInternal;
+    } catch (const Error& error) {
+        throw UsageError(error.what(), error.code());  // all that serve is told are its flags
+    }
+}
+
 }  // namespace
 
 void addServe(CLI::App& root, Action& action) {
@@ -52,9 +60,8 @@ void addServe(CLI::App& root, Action& action) {
                "how long a connection may be idle, s");
     command->add_option("--cors", options->corsOrigin,
                         "origin whose pages may call the service, or *; default none");
-    command->callback([&action, options] {
-        action = [options](Report&) { return server::serve(*options) == 0 ? kDone : kInternal; };
-    });
+    command->callback(
+        [&action, options] { action = [options](Report&) { return run(*options); }; });
 }
 
 }  // namespace farol::cli

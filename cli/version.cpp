@@ -8,7 +8,9 @@
 
 namespace farol::cli {
 
-std::string versionLine() { return "farol " + server::projectVersion() + "\n" + render::version(); }
+std::string versionLine() {
+    return "farol " + server::projectVersion() + "\nrenderer: " + render::version();
+}
 
 void addVersion(CLI::App& root, Action& action) {
     CLI::App* command = root.add_subcommand("version", "Says what was built and what draws");

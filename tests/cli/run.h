@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+
+namespace farol::test {
+
+struct Outcome {
+    int status = -1;  ///< the exit code; 128 + the signal's number where one ended it
+    std::string out, err;
+};
+
+/// Runs the program with the arguments, as the shell reads them, in the test's own folder.
+Outcome run(const std::string& arguments, const std::string& input = "");
+
+/// A file of that name in the test's own folder, and what it holds.
+void writeFile(const std::string& name, const std::string& bytes);
+std::string readFile(const std::string& name);
+bool exists(const std::string& name);
+
+/// Empties the test's own folder and gives it this name.
+void freshFolder(const std::string& name);
+
+/// A small scene of a red sphere, lit from the camera's side.
+extern const char* const kScene;
+
+}  // namespace farol::test

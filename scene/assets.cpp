@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <mutex>
 #include <utility>
 
 #include "scene/digest.h"
@@ -69,7 +70,13 @@ bool isSafePath(const std::string& path) {
     return true;
 }
 
-BundleAssets::BundleAssets(std::map<std::string, std::string> files) : files_(std::move(files)) {
+struct BundleAssets::Digests {
+    std::mutex mutex;
+    std::map<std::string, std::string> made;
+};
+
+BundleAssets::BundleAssets(std::map<std::string, std::string> files)
+    : files_(std::move(files)), digests_(std::make_shared<Digests>()) {
     std::erase_if(files_, [](const auto& entry) { return !isSafePath(entry.first); });
 }
 
@@ -92,7 +99,11 @@ std::optional<std::string> BundleAssets::read(const std::string& path) const {
 
 std::string BundleAssets::version(const std::string& path) const {
     const auto found = files_.find(path);
-    return found == files_.end() ? "" : contentDigest(found->second);
+    if (found == files_.end()) return "";
+    const std::lock_guard lock(digests_->mutex);
+    std::string& digest = digests_->made[path];
+    if (digest.empty()) digest = contentDigest(found->second);
+    return digest;
 }
 
 FolderAssets::FolderAssets(std::string root) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -37,7 +38,9 @@ class BundleAssets final : public Assets {
     std::string version(const std::string& path) const override;
 
   private:
+    struct Digests;  ///< made on demand; copies of a bundle share them
     std::map<std::string, std::string> files_;
+    std::shared_ptr<Digests> digests_;
 };
 
 /// Files below a folder; symbolic links that lead out of it are not found.

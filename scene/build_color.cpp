@@ -7,6 +7,9 @@
 namespace farol::scene {
 namespace {
 
+/// Its rgb is what it starts with.
+const Color kTurningHue{glm::vec3(1.0F, 0.0F, 0.0F), true};
+
 struct BasicColor {
     std::string_view name;
     glm::vec3 rgb;
@@ -60,7 +63,7 @@ std::optional<glm::vec3> triple(std::string_view text) {
 }  // namespace
 
 std::optional<Color> SceneBuilder::colorText(std::string_view text) const {
-    if (sameWord(text, "rgb")) return Color{glm::vec3(1.0F, 0.0F, 0.0F), true};
+    if (sameWord(text, "rgb")) return kTurningHue;
     if (const auto named = colors_.find(std::string(text)); named != colors_.end())
         return named->second;
     if (!text.empty() && text.front() == '#') {
@@ -125,7 +128,8 @@ void SceneBuilder::colorPart(pugi::xml_node element, const ElementSpec& spec, Co
     }
     for (int i = 0; i < 3; ++i)
         if (read[i] >= 0.0) color.rgb[i] = static_cast<float>(std::fmin(read[i] / scale, 1.0));
-    color.cycles = given.flag("cycles");
+    color.cycles = false;
+    if (given.flag("cycles")) color = kTurningHue;
 }
 
 Material& SceneBuilder::materialOf(Model& model) const {

@@ -9,7 +9,8 @@ void SceneBuilder::includes(pugi::xml_node element, Group& group, bool isRoot) {
     const ElementSpec& spec = elementSpec("xmls");
     values(element, spec);
     children(element, spec, [&](std::string_view, pugi::xml_node child) {
-        std::optional<Scene> part = include(child);
+        std::string written;
+        std::optional<Scene> part = include(child, written);
         if (!part) return;
         for (auto& [file, words] : part->generatorComments)
             scene_.generatorComments.emplace(file, words);
@@ -29,10 +30,10 @@ void SceneBuilder::includes(pugi::xml_node element, Group& group, bool isRoot) {
     });
 }
 
-std::optional<Scene> SceneBuilder::include(pugi::xml_node element) {
+std::optional<Scene> SceneBuilder::include(pugi::xml_node element, std::string& file) {
     constexpr std::size_t kDeepest = 8;
     const Values given = values(element, "xml");
-    const std::string& file = given.text("file");
+    file = given.text("file");
     if (file.empty()) {
         findings().error("scene.missing-attribute", at(element),
                          "<" + shown(element.name()) + "> names no \"file\"");
@@ -79,8 +80,11 @@ void SceneBuilder::entity(pugi::xml_node element) {
         findings().warn("scene.duplicate-element", at(element), "a second <entity> is ignored");
         return;
     }
-    if (std::optional<Scene> part = include(element))
+    std::string file;
+    if (std::optional<Scene> part = include(element, file)) {
         scene_.entity = std::make_shared<Scene>(std::move(*part));
+        scene_.entityFile = file;
+    }
 }
 
 }  // namespace farol::scene

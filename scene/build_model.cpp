@@ -64,6 +64,7 @@ void SceneBuilder::model(pugi::xml_node element, Group& group) {
         setTextureFile(given.text("texture"), given.where("texture"), *made.texture);
     }
     modelChildren(element, made);
+    if (made.texture && made.texture->file.empty() && !made.texture->chess) made.texture.reset();
     modelMaterial(given, made);
     if (made.texture && made.texture->mapping == Mapping::mesh && given.text("mapping") == "sphere")
         made.texture->mapping = Mapping::sphere;
@@ -198,7 +199,7 @@ void SceneBuilder::generatorElement(pugi::xml_node element, Model& model) {
     }
     if (!model.file.empty() || !model.command.empty()) {
         std::vector<std::string> arguments(all.begin() + 1, all.end());
-        if (!model.file.empty())
+        if (!model.file.empty() && !arguments.empty())
             scene_.generatorComments.emplace(baseName(model.file), std::move(arguments));
         return;
     }

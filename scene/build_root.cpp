@@ -53,6 +53,7 @@ Scene SceneBuilder::build() {
     } else if (sameWord(root.name(), "world") || sameWord(root.name(), "scene")) {
         scene_.dialect = detectDialect(document_, findings());
         rootAttributes(root);
+        if (isOrdered()) scene_.globalAmbient = glm::vec3(0.2F);
         GroupState state;
         state.isRoot = true;
         // Colours first: a model may name one that is defined below it.

@@ -7,15 +7,12 @@ namespace {
 
 /// What the dialects say of a scene as a whole.
 void completeScene(Scene& scene) {
-    if (scene.dialect == Dialect::course) return;
-    scene.globalAmbient = glm::vec3(0.2F);
-    if (scene.dialect == Dialect::engine2017 && !scene.camera) {
-        Camera camera;
-        camera.eye = glm::dvec3(0.0);
-        camera.target = glm::dvec3(0.0, 0.0, 1.0);
-        camera.fovDeg = 45.0;
-        scene.camera = camera;
-    }
+    if (scene.dialect != Dialect::engine2017 || scene.camera) return;
+    Camera camera;
+    camera.eye = glm::dvec3(0.0);
+    camera.target = glm::dvec3(0.0, 0.0, 1.0);
+    camera.fovDeg = 45.0;
+    scene.camera = camera;
 }
 
 }  // namespace

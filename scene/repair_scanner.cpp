@@ -53,12 +53,12 @@ Repaired RepairScanner::run() {
         at_ = mark;
         if (!ended()) markup();
     }
-    while (!open_.empty()) {
+    // One finding, for the innermost: what is round it is open for the same reason.
+    if (!open_.empty() && !truncated_)
         findings_.error(
             "xml.unclosed", where(open_.back().offset),
             "<" + shown(open_.back().name) + "> is not closed: the document ends inside it");
-        pop();
-    }
+    while (!open_.empty()) pop();
     if (!rootSeen_)
         findings_.error("xml.no-root", where(0), "there is no element: this is not a scene's XML");
     return std::move(result_);
@@ -97,6 +97,7 @@ void RepairScanner::comment() {
     const std::size_t end = source_.find("-->", at_ + 4);
     if (end == std::string_view::npos) {
         findings_.error("xml.comment", where(at_), "the comment is not closed by \"-->\"");
+        truncated_ = true;
         at_ = source_.size();
         return;
     }
@@ -115,8 +116,10 @@ void RepairScanner::comment() {
 void RepairScanner::characterData() {
     const std::size_t begin = at_ + 9;
     const std::size_t end = std::min(source_.find("]]>", begin), source_.size());
-    if (end == source_.size())
+    if (end == source_.size()) {
         findings_.error("xml.unclosed", where(at_), "the CDATA section is not closed by \"]]>\"");
+        truncated_ = true;
+    }
     if (!open_.empty() && open_.back().keepsText) {
         for (std::size_t i = begin; i < end; ++i) {
             if (source_[i] == '&')

@@ -57,6 +57,7 @@ class RepairScanner {
     std::size_t at_ = 0;
     bool rootSeen_ = false;
     bool latin1_ = false;
+    bool truncated_ = false;  ///< the document ends inside a comment or CDATA section
 };
 
 }  // namespace farol::scene

@@ -181,6 +181,7 @@ struct RenderSettings {
     std::optional<Viewer> viewer;
     std::optional<Specular> specular;
     std::optional<glm::dvec2> timeRangeS;  ///< begin < end: what an animation or turntable shows
+    bool operator==(const RenderSettings&) const = default;
 };
 
 struct Scene {
@@ -196,6 +197,7 @@ struct Scene {
     RenderSettings settings;
     Background background;
     std::optional<Skybox> skybox;
+    std::string entityFile;         ///< as written
     std::shared_ptr<Scene> entity;  ///< drawn in eye space before the third-person camera
     /// `generator cone 1 2 4 3 cone_1_2_4_3.3d` comments: file name -> words after `generator`,
     /// without the file name; the shape's name may be missing or an alias.

@@ -55,7 +55,7 @@ class SceneBuilder {
 
     // Includes (build_include.cpp).
     void includes(pugi::xml_node element, Group& group, bool isRoot);
-    std::optional<Scene> include(pugi::xml_node element);
+    std::optional<Scene> include(pugi::xml_node element, std::string& file);
 
     // Groups and transforms (build_group.cpp).
     void groupContent(pugi::xml_node element, const ElementSpec& spec, Group& group,

@@ -1,0 +1,287 @@
+// Tables of inputs that are repaired or refused: what is said, where, and whether a scene results.
+#include <catch2/catch.hpp>
+
+#include "tests/unit/scene/reading.h"
+
+using namespace farol;
+using namespace farol::scene;
+using namespace farol::scene::test;
+
+namespace {
+
+struct CodeCase {
+    std::string xml;  ///< "^" marks the place that is to be told, and is taken out before reading
+    bool refused;
+    std::string code;
+};
+
+/// Line and column of an offset, counted anew: the reader's own counting is under test.
+std::string placeOf(const std::string& xml, std::size_t offset) {
+    int line = 1, column = 1;
+    for (std::size_t i = xml.substr(0, 3) == "\xEF\xBB\xBF" ? 3 : 0; i < offset; ++i) {
+        const bool ends = xml[i] == '\n' || (xml[i] == '\r' && xml.substr(i + 1, 1) != "\n");
+        line += ends ? 1 : 0;
+        column = ends ? 1 : column + 1;
+    }
+    return std::to_string(line) + ":" + std::to_string(column);
+}
+
+void check(const std::vector<CodeCase>& cases) {
+    for (const CodeCase& one : cases) {
+        const std::size_t mark = one.xml.find('^');
+        REQUIRE(mark != std::string::npos);
+        const std::string xml = one.xml.substr(0, mark) + one.xml.substr(mark + 1);
+        const Outcome outcome = tryRead(xml);
+        INFO("input: " << one.xml.substr(0, 300));
+        INFO("outcome: " << outcome.text());
+        CHECK(outcome.scene.has_value() == !one.refused);
+        const Diagnostic* found = outcome.find(one.code);
+        if (found == nullptr) {
+            FAIL_CHECK("no diagnostic " << one.code);
+            continue;
+        }
+        CHECK(std::to_string(found->where.line) + ":" + std::to_string(found->where.column) ==
+              placeOf(xml, mark));
+        CHECK((found->severity == Severity::error) == one.refused);
+        CHECK_FALSE(found->message.empty());
+    }
+}
+
+}  // namespace
+
+TEST_CASE("texts that are not well-formed are repaired with a warning") {
+    check({
+        {transform("<rotate angle=^-90 x=\"1\"/>"), false, "xml.unquoted"},
+        {transform("<translate x=^1/>"), false, "xml.unquoted"},
+        {"<world> ^<>\n<group/></world>", false, "xml.stray-text"},
+        {"<world>\n  <group/>^>\n</world>", false, "xml.stray-text"},
+        {"<world>^hello<group/></world>", false, "xml.stray-text"},
+        {"^junk <world/>", false, "xml.stray-text"},
+        {"<world/>^junk", false, "xml.stray-text"},
+        {"<world><!-- a ^-- b --></world>", false, "xml.comment-dashes"},
+        {transform("<translate x=\"1\"^y=\"2\"/>"), false, "xml.blank"},
+        {"^< world></world>", false, "xml.blank"},
+        {"<world><group ^/ ></world>", false, "xml.blank"},
+        {transform("<translate x=\"1\" ^x=\"2\"/>"), false, "xml.duplicate-attribute"},
+        {transform("<translate x=\"1\" ^X=\"2\"/>"), false, "xml.duplicate-attribute"},
+        {"<world><group ^name/></world>", false, "xml.no-value"},
+        {"<world><group ^,/></world>", false, "xml.stray-text"},
+        {"<world><Group>^</group></world>", false, "xml.case"},
+        {"<world><title>a ^& b</title></world>", false, "xml.ampersand"},
+        {"<world><group name=^“x”/></world>", false, "xml.quote-style"},
+        {"^<world><title>caf\xE9</title></world>", false, "xml.encoding"},
+        {"<world><group name=\"a^\x01\"/></world>", false, "xml.character"},
+        {"^<?xml version=\"1.0\"><world/>", false, "xml.instruction"},
+        {"<world>^<![CDATA[x]]></world>", false, "xml.stray-text"},
+        {"\xEF\xBB\xBF<world>^x</world>", false, "xml.stray-text"},
+        {"<world>\r\n\r\n  ^x</world>", false, "xml.stray-text"},
+        {"<world>\r\r  ^x</world>", false, "xml.stray-text"},
+        {"<world><group></group^ x></world>", false, "xml.stray-text"},
+    });
+}
+
+TEST_CASE("texts that cannot be repaired are refused with line and column") {
+    check({
+        {"^", true, "xml.empty"},
+        {"^ \n\t ", true, "xml.empty"},
+        {"\xEF\xBB\xBF^", true, "xml.empty"},
+        {"^<!-- nothing -->", true, "xml.no-root"},
+        {"^hello", true, "xml.no-root"},
+        {"^{\"a\": 1}", true, "xml.no-root"},
+        {std::string("^\xFF\xFE<\0w\0", 7), true, "xml.encoding"},
+        {std::string("^<\0w\0o\0", 7), true, "xml.encoding"},
+        {std::string("<world>\n a^\0b</world>", 21), true, "xml.character"},
+        {"<world>\n ^<group>\n</world>", true, "xml.unclosed"},
+        {"<world>\n <group>\n  ^<models>", true, "xml.unclosed"},
+        {"<world>\n <group>^</grup>\n</world>", true, "xml.mismatch"},
+        {"<world>^</group></world>", true, "xml.mismatch"},
+        {"<world/>\n^<world/>", true, "xml.extra-root"},
+        {"<world>^<group <models/></group></world>", true, "xml.tag"},
+        {"<world>^<group", true, "xml.tag"},
+        {"<world>^</world", true, "xml.tag"},
+        {"<world><group name=^\"x></group></world>", true, "xml.quote"},
+        {"<world>\n^<!-- never closed </world>", true, "xml.comment"},
+        {"^<!DOCTYPE world><world/>", true, "xml.doctype"},
+        {"^<!DOCTYPE w [<!ENTITY a \"aa\">]>\n<world>&a;</world>", true, "xml.doctype"},
+        {"<world><group name=\"^&bomb;\"/></world>", true, "xml.entity"},
+        {"<world><group name=\"^&#0;\"/></world>", true, "xml.entity"},
+        {"<world><group name=\"^&#xD800;\"/></world>", true, "xml.entity"},
+        {"<world><title>^<![CDATA[x</title></world>", true, "xml.unclosed"},
+    });
+}
+
+TEST_CASE("documents that are not scenes are refused") {
+    check({
+        {"^<html></html>", true, "scene.root"},
+        {"^<word></word>", true, "scene.root"},
+        {"\n^<wrold/>", true, "scene.root"},
+        {transform("<translate x=\"^abc\"/>"), true, "scene.number"},
+        {transform("<translate x=\"^1,5\"/>"), true, "scene.number"},
+        {transform("<translate x=\"^NaN\"/>"), true, "scene.number"},
+        {transform("<translate x=\"^inf\"/>"), true, "scene.number"},
+        {transform("<translate x=\"^-Infinity\"/>"), true, "scene.number"},
+        {transform("<translate x=\"^1e999\"/>"), true, "scene.number"},
+        {transform("<translate x=\"^1e19\"/>"), true, "scene.number"},
+        {transform("<translate x=\"^1.2.3\"/>"), true, "scene.number"},
+        {transform("<translate x=\"^1 2\"/>"), true, "scene.number"},
+        {transform("<translate x=\"^0x10\"/>"), true, "scene.number"},
+        {transform("<translate x=\"^--1\"/>"), true, "scene.number"},
+        {transform("<translate x=\"^+-1\"/>"), true, "scene.number"},
+        {transform("<translate x=\"^1px\"/>"), true, "scene.number"},
+        {"<world><window width=\"^10.5\"/></world>", true, "scene.number"},
+        {"<world><window width=\"^0\"/></world>", true, "scene.range"},
+        {"<world><window height=\"^100000\"/></world>", true, "scene.range"},
+        {camera("<projection fov=\"^0\"/>"), true, "scene.range"},
+        {camera("<projection fov=\"^180\"/>"), true, "scene.range"},
+        {camera("<projection fov=\"^-60\"/>"), true, "scene.range"},
+        {camera("<projection near=\"^0\"/>"), true, "scene.range"},
+        {camera("<projection near=\"^-1\"/>"), true, "scene.range"},
+        {world("^<camera><projection near=\"5\" far=\"5\"/></camera>"), true, "scene.camera"},
+        {world("^<camera><projection near=\"5\" far=\"2\"/></camera>"), true, "scene.camera"},
+        {world("^<camera><position x=\"1\"/><lookAt x=\"1\"/></camera>"), true, "scene.camera"},
+        {world("^<camera><position x=\"0\"/></camera>"), true, "scene.camera"},
+        {camera("<position x=\"3\"/>^<up y=\"0\"/>"), true, "scene.zero-direction"},
+        {world("<lights>^<light type=\"directional\"/></lights>"), true, "scene.zero-direction"},
+        {world("<lights>^<light type=\"directional\" dirX=\"0\"/></lights>"), true,
+         "scene.zero-direction"},
+        {world("<lights>^<light type=\"spot\" posX=\"1\"/></lights>"), true,
+         "scene.zero-direction"},
+        {light("type=\"spot\" dirX=\"1\" cutoff=\"^181\""), true, "scene.range"},
+        {light("type=\"spot\" dirX=\"1\" cutoff=\"^-1\""), true, "scene.range"},
+        {light("type=\"spot\" dirX=\"1\" exponent=\"^-1\""), true, "scene.range"},
+        {light("type=\"^laser\""), true, "scene.value"},
+        {world("<lights>^<light type=\"point\" constant=\"0\"/></lights>"), true,
+         "scene.attenuation"},
+        {light("type=\"point\" linear=\"^-1\""), true, "scene.range"},
+        {transform("^<rotate angle=\"90\"/>"), true, "scene.zero-direction"},
+        {transform("^<rotate time=\"5\" x=\"0\"/>"), true, "scene.zero-direction"},
+        {transform("<rotate time=\"^0\" x=\"1\"/>"), true, "scene.range"},
+        {transform("<translate time=\"^0\"><point/></translate>"), true, "scene.range"},
+        {transform("<translate time=\"^-1\"><point/></translate>"), true, "scene.range"},
+        {transform("^<translate time=\"10\"/>"), true, "scene.points"},
+        {transform("<translate align=\"^maybe\"/>"), true, "scene.value"},
+        {group("<models>^<model/></models>"), true, "scene.missing-attribute"},
+        {group("<models>^<model file=\"\"/></models>"), true, "scene.missing-attribute"},
+        {model("<color><shininess value=\"^-1\"/></color>"), true, "scene.range"},
+        {group("<models><model file=\"p.ply\" revolve=\"^2\"/></models>"), true, "scene.range"},
+        {model("<texture file=\"^chess:0x8\"/>"), true, "scene.value"},
+        {model("<texture file=\"^chess:8\"/>"), true, "scene.value"},
+        {model("<texture file=\"a.jpg\"/><texgen s=\"^1 0 0\"/>"), true, "scene.number"},
+        {world("<render aa=\"^3\"/>"), true, "scene.range"},
+        {world("<render shading=\"^nice\"/>"), true, "scene.value"},
+        {world("<render time=\"^5..1\"/>"), true, "scene.value"},
+        {world("<xmls>^<xml/></xmls>"), true, "scene.missing-attribute"},
+        {world("<xmls><xml file=\"^no.xml\"/></xmls>"), true, "asset.missing"},
+        {world("<entity file=\"^no.xml\"/>"), true, "asset.missing"},
+        {world("<skybox texture=\"a.jpg\" width=\"^0\"/>"), true, "scene.range"},
+        {world("<background color=\"^nice\"/>"), true, "scene.unknown-color"},
+    });
+}
+
+TEST_CASE("oddities of scenes are told") {
+    check({
+        {transform("<translate ^w=\"4\"/>"), false, "scene.unknown-attribute"},
+        {transform("<translate ^x=\"\"/>"), false, "scene.empty-value"},
+        {transform("<translate x=\"1\"/>^<translate x=\"2\"/>"), false,
+         "scene.duplicate-transform"},
+        {group("<models/>^<models/>"), false, "scene.duplicate-models"},
+        {group("<models/><transform>^<scale x=\"2\"/></transform>"), false, "scene.order"},
+        {transform("^<rotate x=\"1\"/>"), false, "scene.missing-attribute"},
+        {transform("<rotate x=\"1\" angle=\"^3\" time=\"4\"/>"), false, "scene.ineffective"},
+        {transform("<translate x=\"1\" align=\"^true\"/>"), false, "scene.ineffective"},
+        {transform("^<translate time=\"9\"><point x=\"1\"/></translate>"), false, "scene.points"},
+        {transform("^<translate><point/><point/><point/><point/></translate>"), false,
+         "scene.missing-attribute"},
+        {world("^<grop/>"), false, "scene.unknown-element"},
+        {world("^<point/>"), false, "scene.misplaced"},
+        {world("^<camera/>"), false, "scene.missing-element"},
+        {world("<window/>^<window/>"), false, "scene.duplicate-element"},
+        {world("<lights>^<light posX=\"1\"/></lights>"), false, "scene.missing-attribute"},
+        {world("<lights>^<light type=\"directional\" posX=\"1\"/></lights>"), false,
+         "scene.missing-attribute"},
+        {model("<color><diffuse R=\"^300\" G=\"0\" B=\"0\"/></color>"), false, "scene.clamped"},
+        {model("<color>^<diffuse R=\"0.5\" G=\"0\" B=\"0\"/></color>"), false, "scene.color-scale"},
+        {model("<color>^<diffuse R=\"1\" G=\"0\" B=\"1\"/></color>"), false, "scene.color-scale"},
+        {model("^<texture/>"), false, "scene.missing-attribute"},
+        {model("^<texgen s=\"1 0 0 0\"/>"), false, "scene.ineffective"},
+        {model("^<generator/>"), false, "scene.missing-attribute"},
+        {"<world><!-- generator box 1 a.3d -->^<!-- generator box 2 a.3d --></world>", false,
+         "scene.generator-conflict"},
+        {world("^<skybox/>"), false, "scene.missing-attribute"},
+        {world("^<background/>"), false, "scene.missing-attribute"},
+    });
+}
+
+TEST_CASE("the older dialects refuse what they forbid") {
+    check({
+        {scene2017("<translate ^w=4/>"), true, "scene.unknown-attribute"},
+        {scene2017("<scale ^factor=4/>"), true, "scene.unknown-attribute"},
+        {scene2017("<translate x=1/>\n^<translate x=2/>"), true, "scene.duplicate-transform"},
+        {scene2017("<models/>\n ^<models/>"), true, "scene.duplicate-models"},
+        {scene2017("<group><models/>\n^<translate x=1/></group>"), true, "scene.order"},
+        {scene2017("<group><group/>\n^<rotate angle=1 axisX=1/></group>"), true, "scene.order"},
+        {scene2017("^<rotate angle=5/>"), true, "scene.zero-direction"},
+        {scene2017("<translate x=1/><models><model file=a diffR=^128 diffG=0/></models>"), false,
+         "scene.color-scale"},
+        {scene2020("<models><model command=\"plane 4\" diffuse=\"^nocolor\"/></models>"), true,
+         "scene.unknown-color"},
+        {"<scene><colors>^<color r=\"1\"/></colors></scene>", false, "scene.missing-attribute"},
+        {"<scene><colors><color name=\"^rgb\" r=\"1\"/></colors></scene>", false, "scene.value"},
+        {"<scene>^<camera><position x=\"1\"/></camera><translate x=\"1\"/></scene>", false,
+         "scene.dialect"},
+    });
+}
+
+TEST_CASE("the ninth light of the 2020 dialect is refused, and of no other") {
+    std::string lights = "<lights>\n";
+    for (int i = 0; i < 9; ++i) lights += "<light type=\"POINT\" posX=\"1\"/>\n";
+    lights += "</lights>";
+    const Outcome refused = tryRead(scene2020(lights));
+    REQUIRE_FALSE(refused.scene);
+    CHECK(refused.diagnostics.front().code == "limit.lights");
+    CHECK(refused.diagnostics.front().where.line == 10);
+    CHECK(tryRead(world(lights)).scene->lights.size() == 9);
+    CHECK(tryRead(scene2017(lights)).scene->lights.size() == 9);
+}
+
+TEST_CASE("warnings are errors when strict") {
+    ReadOptions strict;
+    strict.strict = true;
+    for (const std::string& xml : {transform("<translate w=\"4\"/>"), transform("<translate x=1/>"),
+                                   world("<grop/>"), std::string("<world>junk</world>")}) {
+        INFO(xml);
+        CHECK(tryRead(xml).scene);
+        const Outcome outcome = tryRead(xml, strict);
+        CHECK_FALSE(outcome.scene);
+        REQUIRE_FALSE(outcome.diagnostics.empty());
+        CHECK(outcome.diagnostics.front().severity == Severity::error);
+    }
+    CHECK(tryRead(transform("<translate x=\"1\"/>"), strict).scene);
+}
+
+TEST_CASE("unknown names are told with the nearest known one") {
+    const auto message = [](const std::string& xml, const std::string& code) {
+        const Outcome outcome = tryRead(xml);
+        const Diagnostic* found = outcome.find(code);
+        return found != nullptr ? found->message : std::string("none");
+    };
+    CHECK_THAT(message(world("<grop/>"), "scene.unknown-element"), Catch::Contains("<group>"));
+    CHECK_THAT(message(camera("<projection fvo=\"1\"/>"), "scene.unknown-attribute"),
+               Catch::Contains("\"fov\""));
+    CHECK_THAT(message(light("type=\"pont\""), "scene.value"), Catch::Contains("\"point\""));
+    CHECK_THAT(message("<wrold/>", "scene.root"), Catch::Contains("<world>"));
+    CHECK_THAT(message(world("<point/>"), "scene.misplaced"), Catch::Contains("<translate>"));
+    CHECK_THAT(message(transform("<translate x=\"1,5\"/>"), "scene.number"),
+               Catch::Contains("1.5"));
+}
+
+TEST_CASE("a refused document tells all that was found") {
+    const Outcome outcome = tryRead(
+        "<world>\n<grop/>\n<group><transform><translate x=\"a\"/>\n<rotate angle=\"b\"/>\n"
+        "</transform>\n<models></group></world>");
+    REQUIRE_FALSE(outcome.scene);
+    std::vector<int> lines;
+    for (const Diagnostic& one : outcome.diagnostics) lines.push_back(one.where.line);
+    CHECK(lines == std::vector<int>{2, 3, 4, 6});
+    CHECK(outcome.find("xml.unclosed") != nullptr);
+}

@@ -1,0 +1,121 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+
+#include "generator/io/mesh_file.h"
+#include "generator/io/patch_file.h"
+#include "generator/registry.h"
+#include "scene/assets.h"
+
+namespace fs = std::filesystem;
+using farol::generator::Mesh;
+
+namespace {
+
+const fs::path kData = fs::path(FAROL_SOURCE_DIR) / ".." / "shared" / "data";
+
+/// True when the folder is there; else says aloud that the test is skipped.
+bool haveData(const std::string& folder) {
+    if (fs::is_directory(kData / folder)) return true;
+    std::cout << "SKIPPED: " << folder << " is not in ../shared/data\n";
+    WARN("skipped: ../shared/data/" << folder << " is missing");
+    return false;
+}
+
+std::string bytesOf(const fs::path& path) {
+    std::ifstream in(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+double volume(const Mesh& mesh) {
+    double sum = 0;
+    for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+        const glm::dvec3 a(mesh.positions[mesh.indices[i]]), b(mesh.positions[mesh.indices[i + 1]]),
+            c(mesh.positions[mesh.indices[i + 2]]);
+        sum += glm::dot(a, glm::cross(b, c)) / 6;
+    }
+    return sum;
+}
+
+}  // namespace
+
+TEST_CASE("the built-in teapot has the surface of the course's") {
+    if (!haveData("course/phase_3")) return;
+    const farol::scene::FolderAssets course((kData / "course" / "phase_3").string());
+    const std::vector<std::string> words{"patch", "teapot.patch", "16"};
+    const Mesh ours = farol::generator::generate(words, farol::scene::BundleAssets());
+    const Mesh theirs = farol::generator::generate(words, course);
+    REQUIRE(ours.positions.size() == theirs.positions.size());
+    CHECK(ours.indices == theirs.indices);
+    float worst = 0, worstNormal = 0;
+    for (std::size_t i = 0; i < ours.positions.size(); ++i) {
+        worst = std::max(worst, glm::distance(ours.positions[i], theirs.positions[i]));
+        worstNormal = std::max(worstNormal, glm::distance(ours.normals[i], theirs.normals[i]));
+    }
+    CHECK(worst < 1e-5F);
+    CHECK(worstNormal < 1e-3F);
+    std::cout << "teapot: largest distance " << worst << ", of normals " << worstNormal << '\n';
+}
+
+TEST_CASE("the meshes of the 2017 engine are read as they are") {
+    if (!haveData("engine_2017")) return;
+    struct Row {
+        const char* name;
+        std::size_t vertices, triangles;
+        double volume;
+    };
+    for (const Row& row : std::vector<Row>{{"asteroid.3d", 36, 50, 0.00287},
+                                           {"box.3d", 24, 12, 120},
+                                           {"boxdiv.3d", 726, 1200, 120},
+                                           {"cone.3d", 143, 210, 1959.28},
+                                           {"plane.3d", 8, 4, 0},
+                                           {"sphere.3d", 441, 800, 32.759}}) {
+        CAPTURE(row.name);
+        farol::Diagnostics findings;
+        const Mesh mesh = farol::generator::io::decodeMesh(
+            bytesOf(kData / "engine_2017" / row.name), row.name, findings);
+        CHECK(findings.empty());
+        CHECK(mesh.positions.size() == row.vertices);
+        CHECK(mesh.triangles() == row.triangles);
+        CHECK(mesh.uvs.size() == row.vertices);
+        CHECK(volume(mesh) == Approx(row.volume).epsilon(0.001).margin(1e-6));
+        for (const glm::vec3& n : mesh.normals) CHECK(std::abs(glm::length(n) - 1) < 1e-5F);
+    }
+}
+
+TEST_CASE("the can and the pawn are turned about their axis") {
+    if (!haveData("granada")) return;
+    const farol::scene::FolderAssets assets((kData / "granada").string());
+    struct Row {
+        const char* name;
+        double low, high, radius;
+    };
+    for (const Row& row : std::vector<Row>{{"peon.ply", -1.4, 1.4, 1},
+                                           {"lata-pcue.ply", 0.03, 1.02, 0.28},
+                                           {"lata-pinf.ply", 0, 0.03, 0.22},
+                                           {"lata-psup.ply", 1.0388, 1.0812, 0.22}}) {
+        CAPTURE(row.name);
+        const Mesh mesh = farol::generator::generate({"revolution", row.name, "33"}, assets);
+        REQUIRE(!mesh.indices.empty());
+        float low = 1e9F, high = -1e9F, radius = 0;
+        for (const glm::vec3& p : mesh.positions) {
+            low = std::min(low, p.y);
+            high = std::max(high, p.y);
+            radius = std::max(radius, std::hypot(p.x, p.z));
+        }
+        CHECK(radius == Approx(row.radius).epsilon(1e-4));
+        CHECK(high == Approx(row.high).margin(0.02));
+        CHECK(low == Approx(row.low).margin(0.05));
+        // Faces and normals agree, so nothing is inside out.
+        for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+            const glm::dvec3 a(mesh.positions[mesh.indices[i]]),
+                b(mesh.positions[mesh.indices[i + 1]]), c(mesh.positions[mesh.indices[i + 2]]);
+            const glm::dvec3 face = glm::cross(b - a, c - a);
+            CHECK(glm::length(face) > 0);
+            CHECK(glm::dot(face, glm::dvec3(mesh.normals[mesh.indices[i]])) > 0);
+        }
+    }
+}

@@ -1,0 +1,172 @@
+#include <catch2/catch.hpp>
+
+#include "tests/unit/generator/checks.h"
+
+using namespace farol;
+using checks::words;
+using scene::ModelSource;
+
+namespace {
+
+struct Result {
+    scene::Scene scene;
+    Diagnostics diagnostics;
+    const scene::Model& model() const { return scene.groups[0].models[0]; }
+    bool has(const std::string& code, Severity severity) const {
+        for (const Diagnostic& one : diagnostics)
+            if (one.code == code && one.severity == severity) return true;
+        return false;
+    }
+};
+
+struct Setup {
+    std::string file, command, comment;
+    std::optional<int> revolve = {};
+    std::string commentFor = {};
+};
+
+const std::map<std::string, std::string> kBundle{
+    {"models/Ship.3d", "0 0 0\n1 0 0\n0 1 0\n"},
+    {"cone_9_9_9_9.3d", "0 0 0\n1 0 0\n0 1 0\n"},
+    {"pawn.ply",
+     "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\n"
+     "property float z\nend_header\n1 0 0\n1 1 0\n"},
+    {"a/twin.3d", "0 0 0\n1 0 0\n0 1 0\n"},
+    {"b/twin.3d", "0 0 0\n1 0 0\n0 1 0\n"},
+    {"own.patch", "1\n0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0\n1\n0,0,0\n"},
+    {"wood.jpg", "x"}};
+
+Result resolved(const Setup& setup) {
+    Result out;
+    scene::Model model;
+    model.file = setup.file;
+    model.command = setup.command;
+    model.revolve = setup.revolve;
+    model.where = {"scene.xml", 7, 3};
+    out.scene.groups.emplace_back().models.push_back(model);
+    if (!setup.comment.empty())
+        out.scene.generatorComments[setup.commentFor.empty() ? setup.file : setup.commentFor] =
+            words(setup.comment);
+    generator::resolve(out.scene, scene::BundleAssets(kBundle), out.diagnostics);
+    return out;
+}
+
+}  // namespace
+
+TEST_CASE("models are found in the bundle, in comments, in their names and built in") {
+    struct Row {
+        Setup setup;
+        std::string path, shape, warning;
+    };
+    for (const Row& row : std::vector<Row>{
+             {{"models/Ship.3d", "", ""}, "models/Ship.3d", "", ""},
+             {{"Ship.3d", "", ""}, "models/Ship.3d", "", "asset.found-elsewhere"},
+             {{"cone_9_9_9_9.3d", "", "cone 1 2 4 3"}, "cone_9_9_9_9.3d", "", ""},
+             {{"c.3d", "", "cone 1 2 4 3"}, "", "cone 1 2 4 3", ""},
+             {{"models/c.3d", "", "cone 1 2 4 3", {}, "c.3d"}, "", "cone 1 2 4 3", ""},
+             {{"box_2_3.3d", "", "2 3"}, "", "box 2 3", ""},
+             {{"box_nt.3d", "", "2 3"}, "", "box 2 3", ""},
+             {{"bezier.3d", "", "bezier teapot.patch 10"}, "", "patch teapot.patch 10", ""},
+             {{"t.3d", "", "patch 10 teapot.patch"}, "", "patch teapot.patch 10", ""},
+             {{"sphere.3d", "", "sphere 8 8 1"}, "", "sphere 1 8 8", "shape.order"},
+             {{"x.3d", "", "cone 10 10 0.5 2"}, "", "cone 0.5 2 10 10", "shape.order"},
+             {{"cone_1_2_4_3.3d", "", ""}, "", "cone 1 2 4 3", ""},
+             {{"sphere_0.5_8_8.3d", "", ""}, "", "sphere 0.5 8 8", ""},
+             {{"demos/sphere_1_8_8.3d", "", ""}, "", "sphere 1 8 8", ""},
+             {{"bezier_10.3d", "", ""}, "", "patch teapot.patch 10", ""},
+             {{"teapot.3d", "", ""}, "", "patch teapot.patch", ""},
+             {{"teapot.patch", "", ""}, "", "patch teapot.patch", ""},
+             {{"own.patch", "", ""}, "own.patch", "patch own.patch", ""},
+             {{"torus.3d", "", ""}, "", "torus 1 0.5", "shape.guessed"},
+             {{"plane.3d", "", ""}, "", "plane 1", "shape.guessed"},
+             {{"", "plane 4", ""}, "", "plane 4", ""},
+             {{"", "Box 1 2 3", ""}, "", "box 1 2 3", ""},
+             {{"", "revolution pawn.ply 32", ""}, "pawn.ply", "revolution pawn.ply 32", ""},
+             {{"pawn.ply", "", "", 9}, "pawn.ply", "revolution pawn.ply 9", ""}}) {
+        CAPTURE(row.setup.file, row.setup.command, row.setup.comment);
+        const Result result = resolved(row.setup);
+        for (const Diagnostic& one : result.diagnostics) {
+            CAPTURE(one.message);
+            CHECK(one.severity != Severity::error);
+            CHECK(one.where == Location{"scene.xml", 7, 3});
+        }
+        const ModelSource& source = result.model().source;
+        const bool file = row.shape.empty();
+        CHECK(source.kind == (file ? ModelSource::Kind::file : ModelSource::Kind::shape));
+        CHECK(source.path == row.path);
+        CHECK(source.words == words(row.shape));
+        if (!row.warning.empty()) CHECK(result.has(row.warning, Severity::warning));
+        const bool patchFile = row.path == "own.patch";
+        CHECK(
+            result.has(file || patchFile ? "asset.from-file" : "asset.generated", Severity::info));
+        if (!patchFile)
+            CHECK(generator::load(result.model(), scene::BundleAssets(kBundle)).triangles() > 0);
+    }
+}
+
+TEST_CASE("models that cannot be had are errors at their place") {
+    struct Row {
+        Setup setup;
+        std::string code, said;
+    };
+    for (const Row& row : std::vector<Row>{
+             {{"shpere_1_8_8.3d", "", ""}, "asset.missing", "did you mean \"sphere_1_8_8.3d\""},
+             {{"modles/Shipp.3d", "", ""}, "asset.missing", "did you mean \"Ship.3d\""},
+             {{"twin.3d", "", ""}, "asset.missing", "twin.3d"},
+             {{"box_nt.3d", "", ""}, "asset.missing", "box_nt.3d"},
+             {{"../../etc/passwd", "", ""}, "asset.missing", "passwd"},
+             {{"sphere_1_2_8.3d", "", ""}, "shape.argument", "SLICES"},
+             {{"c.3d", "", "cone 1 2 4"}, "", ""},
+             {{"c.3d", "", "cone 1 -2 4 3"}, "shape.argument", "HEIGHT"},
+             {{"c.3d", "", "coen 1 2 4 3"}, "shape.unknown", "did you mean \"cone\""},
+             {{"c.3d", "", "patch missing.patch 3"}, "asset.missing", "missing.patch"},
+             {{"", "sphere", ""}, "shape.argument", "RADIUS"},
+             {{"", "sphere 1 90000 90000", ""}, "limit.triangles", "5000000"},
+             {{"none.ply", "", "", 8}, "asset.missing", "none.ply"},
+             {{"pawn.ply", "", "", 2}, "shape.argument", "N"}}) {
+        CAPTURE(row.setup.file, row.setup.command, row.setup.comment);
+        const Result result = resolved(row.setup);
+        if (row.code.empty()) {  // fewer arguments than counts: the rest is chosen
+            CHECK(result.model().source.kind == ModelSource::Kind::shape);
+            continue;
+        }
+        CHECK(result.model().source.kind == ModelSource::Kind::none);
+        bool found = false;
+        for (const Diagnostic& one : result.diagnostics) {
+            if (one.severity != Severity::error) continue;
+            found = true;
+            CHECK(one.code == row.code);
+            CHECK_THAT(one.message, Catch::Contains(row.said));
+            CHECK(one.where == Location{"scene.xml", 7, 3});
+        }
+        CHECK(found);
+        CHECK_THROWS_AS(generator::load(result.model(), scene::BundleAssets(kBundle)), Error);
+    }
+}
+
+TEST_CASE("textures, background and skybox are found or reported, also in the entity") {
+    scene::Scene main;
+    scene::Texture wood, lost, chess;
+    wood.file = "textures/wood.jpg";
+    lost.file = "woood.jpg";
+    chess.chess = scene::Chess{};
+    for (const auto& texture : {wood, lost, chess, lost}) {
+        scene::Model model;
+        model.command = "plane 1";
+        model.texture = texture;
+        model.texture->where.line = 4;
+        main.groups.emplace_back().groups.emplace_back().models.push_back(model);
+    }
+    main.background.file = "none.png";
+    main.skybox = scene::Skybox{"sky.png", "", 500, {}};
+    main.entity = std::make_shared<scene::Scene>();
+    main.entity->background.file = "wood.jpg";
+    Diagnostics diagnostics;
+    generator::resolve(main, scene::BundleAssets(kBundle), diagnostics);
+    CHECK(main.groups[0].groups[0].models[0].texture->path == "wood.jpg");
+    CHECK(main.groups[1].groups[0].models[0].texture->path.empty());
+    CHECK(main.entity->background.path == "wood.jpg");
+    int missing = 0;
+    for (const Diagnostic& one : diagnostics) missing += one.code == "asset.missing" ? 1 : 0;
+    CHECK(missing == 4);  // woood.jpg twice, none.png, sky.png
+}

@@ -14,6 +14,7 @@ struct Sign {
     std::string_view attributes = {};  ///< any of them; empty: the element alone
     std::string_view parents = {};     ///< empty: anywhere
 };
+// <window> and <camera> are no signs: scenes of all dialects have been given them.
 constexpr Sign kSigns[] = {
     {Dialect::engine2020, "colors colours"},
     {Dialect::engine2020, "skybox"},
@@ -24,8 +25,6 @@ constexpr Sign kSigns[] = {
     {Dialect::engine2017, "model", "diffR ambtR specR emisR rand"},
     {Dialect::engine2017, "light", "spotDirX diffR ambtR specR"},
     {Dialect::engine2017, "entity"},
-    {Dialect::course, "window", "", "scene"},
-    {Dialect::course, "camera", "", "scene"},
     {Dialect::course, "transform"},
     {Dialect::course, "color colour", "", "model"},
     {Dialect::course, "texture", "", "model"},
@@ -58,6 +57,8 @@ pugi::xml_node nextElement(pugi::xml_node element, pugi::xml_node root) {
 
 Dialect detectDialect(const Document& document, Findings& findings) {
     const pugi::xml_node root = document.root();
+    for (const pugi::xml_attribute attribute : root.attributes())
+        if (sameWord(attribute.name(), "dialect")) return Dialect::course;  // told, not guessed
     if (!sameWord(root.name(), "scene")) return Dialect::course;
     const Sign* first = nullptr;
     pugi::xml_node firstAt, otherAt;

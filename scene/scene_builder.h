@@ -116,7 +116,8 @@ class SceneBuilder {
     int lightCount_ = 0;
 };
 
-/// Which dialect a document is written in; an info scene.dialect where its signs disagree.
+/// Which dialect a document is written in; an info scene.dialect where its signs disagree. The
+/// root's attribute "dialect" wins and is read elsewhere.
 Dialect detectDialect(const Document& document, Findings& findings);
 
 /// Reads `xml` and what it includes as one scene, without the defaults of a whole scene.

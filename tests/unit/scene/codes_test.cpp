@@ -227,8 +227,7 @@ TEST_CASE("the older dialects refuse what they forbid") {
          "scene.unknown-color"},
         {"<scene><colors>^<color r=\"1\"/></colors></scene>", false, "scene.missing-attribute"},
         {"<scene><colors><color name=\"^rgb\" r=\"1\"/></colors></scene>", false, "scene.value"},
-        {"<scene>^<camera><position x=\"1\"/></camera><translate x=\"1\"/></scene>", false,
-         "scene.dialect"},
+        {"<scene>^<transform/><translate x=\"1\"/></scene>", false, "scene.dialect"},
     });
 }
 

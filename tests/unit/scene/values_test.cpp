@@ -443,7 +443,7 @@ TEST_CASE("which dialect a document is written in") {
     CHECK(dialect("<scene><skybox texture=\"a\"/></scene>") == Dialect::engine2020);
     CHECK(dialect("<scene><models><model command=\"box 1\"/></models></scene>") ==
           Dialect::engine2020);
-    CHECK(dialect("<scene><window/></scene>") == Dialect::course);
+    CHECK(dialect("<scene><window/><camera/></scene>") == Dialect::engine2017);
     CHECK(dialect("<scene><group><transform/></group></scene>") == Dialect::course);
     CHECK(dialect("<world dialect=\"2017\"/>") == Dialect::engine2017);
     CHECK(dialect("<scene dialect=\"2020\"/>") == Dialect::engine2020);

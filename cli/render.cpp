@@ -3,6 +3,7 @@
 #include <utility>
 #include <vector>
 
+#include "cli/animation.h"
 #include "cli/command.h"
 #include "cli/files.h"
 #include "cli/source.h"
@@ -14,6 +15,7 @@ namespace {
 
 struct Flags {
     std::string scene, output, assets;
+    AnimationFlags animation;
     bool strict = false, stats = false, verbose = false;
     std::vector<std::pair<std::string, std::string>> picture;  ///< options in the order given
 };
@@ -62,9 +64,17 @@ int run(const Flags& flags, Report& report) {
     render::Job job = openSource(flags.scene, flags.assets, flags.strict);
     job.options = options;
     report.setInput(job.name);
-    const render::Picture picture = render::Renderer().render(job);
+    render::Picture picture;
+    if (flags.animation.wanted()) {
+        const Schedule moments = schedule(flags.animation, render::inspect(job), options.timeS);
+        picture = renderAnimation(job, moments, flags.output);
+        report.set("frames", moments.frames);
+        report.set("fps", moments.fps);
+    } else {
+        picture = render::Renderer().render(job);
+        writeOutput(flags.output, picture.bytes);
+    }
     report.add(picture.diagnostics);
-    writeOutput(flags.output, picture.bytes);
     const nlohmann::json stats = server::toJson(picture.stats), times = toJson(picture.times);
     report.set("output", flags.output);
     report.set("contentType", picture.contentType);
@@ -90,6 +100,17 @@ void addRender(CLI::App& root, Action& action) {
     command->add_flag("--strict", flags->strict, "takes warnings for errors");
     command->add_flag("--stats", flags->stats, "says what was drawn, and how long it took");
     command->add_flag("-v,--verbose", flags->verbose, "shows information beside warnings");
+    command
+        ->add_option(
+            "--frames", flags->animation.frames,
+            "renders an animation of that many frames; they make one loop unless --fps is given")
+        ->check(CLI::Range(1, 3600))
+        ->group("Animation");
+    command
+        ->add_option("--fps", flags->animation.fps,
+                     "frames a second; without --frames as many as make one loop")
+        ->check(CLI::Range(0.01, 1000.0))
+        ->group("Animation");
     for (const render::OptionSpec& spec : render::optionSpecs())
         command
             ->add_option_function<std::string>(

@@ -14,6 +14,7 @@
 #include "render/plan.h"
 #include "render/prepare.h"
 #include "scene/animation.h"
+#include "scene/loop.h"
 
 namespace farol::render {
 namespace {
@@ -87,7 +88,7 @@ Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 
-Picture Renderer::render(const Job& job) {
+Picture Renderer::draw(const Job& job, Image& image) {
     Picture picture;
     Stopwatch watch;
     const Prepared prepared = prepare(job);
@@ -99,7 +100,7 @@ Picture Renderer::render(const Job& job) {
     picture.times.geometryMs = watch.lap();
 
     gl::Painter::Timings timings;
-    Image image = state_->painter.draw(
+    image = state_->painter.draw(
         frame, [&](const TextureRef& ref) { return decodeTexture(ref, *prepared.assets); },
         frame.stats.drawCalls, timings);
     const double total = watch.lap();
@@ -110,12 +111,19 @@ Picture Renderer::render(const Job& job) {
 
     if (job.options.debug && job.options.layer == Layer::color)
         drawText(image, describe(frame, job.options.timeS), std::max(1, image.height / 300));
-    picture.bytes = encode(image, job.options.format, job.options.quality);
-    picture.times.encodeMs = watch.lap();
-    picture.contentType = contentType(job.options.format);
     picture.width = image.width;
     picture.height = image.height;
     picture.stats = frame.stats;
+    return picture;
+}
+
+Picture Renderer::render(const Job& job) {
+    Image image;
+    Picture picture = draw(job, image);
+    Stopwatch watch;
+    picture.bytes = encode(image, job.options.format, job.options.quality);
+    picture.times.encodeMs = watch.lap();
+    picture.contentType = contentType(job.options.format);
     return picture;
 }
 
@@ -127,6 +135,7 @@ SceneReport inspect(const Job& job) {
     report.title = scene.title;
     report.description = scene.description;
     report.animated = scene::isAnimated(scene);
+    report.loopSeconds = scene::loopSeconds(scene);
     const glm::ivec2 size = pictureSize(scene, job.options);
     report.width = size.x;
     report.height = size.y;

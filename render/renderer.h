@@ -2,9 +2,11 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "render/image.h"
 #include "render/options.h"
 #include "scene/assets.h"
 #include "scene/error.h"
@@ -48,6 +50,7 @@ struct SceneReport {
     std::string title, description;
     int width = 512, height = 512;
     bool animated = false;
+    std::optional<double> loopSeconds;  ///< see scene/loop.h
     scene::Camera camera;
     std::int64_t triangles = 0;
     int models = 0, lights = 0, textures = 0;
@@ -66,6 +69,8 @@ class Renderer {
 
     /// Throws Error (option.*, xml.*, scene.*, asset.*, shape.*, mesh.*, image.*, limit.*).
     Picture render(const Job& job);
+    /// The same without encoding: the pixels go to `image`, Picture::bytes stays empty.
+    Picture draw(const Job& job, Image& image);
 
   private:
     struct State;

@@ -41,6 +41,7 @@ namespace farol::render::gl {
     X(DrawElements, PFNGLDRAWELEMENTSPROC)                                     \
     X(Enable, PFNGLENABLEPROC)                                                 \
     X(EnableVertexAttribArray, PFNGLENABLEVERTEXATTRIBARRAYPROC)               \
+    X(Finish, PFNGLFINISHPROC)                                                 \
     X(FramebufferRenderbuffer, PFNGLFRAMEBUFFERRENDERBUFFERPROC)               \
     X(FrontFace, PFNGLFRONTFACEPROC)                                           \
     X(GenBuffers, PFNGLGENBUFFERSPROC)                                         \

@@ -304,6 +304,7 @@ Image Painter::draw(const FramePlan& plan, const Decode& decode, int& drawCalls,
     std::vector<std::uint16_t> sum;
     for (int pass = 0; pass < sampled.passes; ++pass) {
         s.drawPass(plan, passOffset(pass, sampled.passes), drawCalls);
+        s.api.Finish();  // else the time of drawing would be counted as reading
         const auto drawn = std::chrono::steady_clock::now();
         s.target->read(image);
         timings.readbackMs += sinceMs(drawn);

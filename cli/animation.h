@@ -1,0 +1,33 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "render/renderer.h"
+
+namespace farol::cli {
+
+/// What --frames and --fps ask for; both unset: a still picture.
+struct AnimationFlags {
+    std::optional<int> frames;
+    std::optional<double> fps;
+    bool wanted() const { return frames || fps; }
+};
+
+/// Moments of an animation: frame i shows `begin + i / fps`.
+struct Schedule {
+    int frames;
+    double fps, beginS;
+};
+
+/// Given one of --frames and --fps, the other follows from the scene's loop, so that the last frame
+/// leads into the first; given both, they are taken as they are. Throws UsageError when the loop is
+/// needed and the scene has none.
+Schedule schedule(const AnimationFlags& flags, const render::SceneReport& report, double beginS);
+
+/// Renders all frames into `output`: an animated PNG, or, with a %d (%04d) in the name, one picture
+/// a frame. Shows progress on stderr where that is a terminal. Returns the last picture's facts.
+render::Picture renderAnimation(render::Job job, const Schedule& schedule,
+                                const std::string& output);
+
+}  // namespace farol::cli

@@ -54,14 +54,23 @@ def hare(cell=0.05):
     parts = _solid()
     low, high = (-0.75, -0.12, -1.15), (0.75, 2.5, 1.1)
     n = [int((high[i] - low[i]) / cell) + 2 for i in range(3)]
-    at = lambda i, j, k: (i * n[1] + j) * n[2] + k
+
+    def at(i, j, k):
+        return (i * n[1] + j) * n[2] + k
+
     values = []
     for i in range(n[0]):
         for j in range(n[1]):
             for k in range(n[2]):
-                values.append(_distance(parts, low[0] + i * cell, low[1] + j * cell, low[2] + k * cell))
+                point = (low[0] + i * cell, low[1] + j * cell, low[2] + k * cell)
+                values.append(_distance(parts, *point))
     corners = [(a, b, c) for a in (0, 1) for b in (0, 1) for c in (0, 1)]
-    edges = [(p, q) for p in corners for q in corners if sum(q) - sum(p) == 1 and all(x <= y for x, y in zip(p, q))]
+    edges = [
+        (p, q)
+        for p in corners
+        for q in corners
+        if p < q and sum(abs(x - y) for x, y in zip(p, q)) == 1
+    ]
     vertices, number = [], {}
     for i in range(n[0] - 1):
         for j in range(n[1] - 1):

@@ -16,7 +16,7 @@ class Image:
 
     @classmethod
     def of(cls, width, height, shade):
-        """The picture whose pixel (x, y) is shade(u, v): u to the right, v upwards, at its middle."""
+        """The picture whose pixel (x, y) is shade(u, v) at its middle; v runs upwards."""
         image = cls(width, height)
         image.pixels = [
             shade((x + 0.5) / width, 1.0 - (y + 0.5) / height)

@@ -74,7 +74,8 @@ def asteroid(seed=601, levels=2):
     points, faces = _icosphere(levels)
     shaped = []
     for x, y, z in points:
-        r = 1 + 0.5 * noise.at(1.1 * x + 2, 1.1 * y, 1.1 * z) + 0.22 * noise.at(2.7 * x, 2.7 * y + 4, 2.7 * z)
+        r = (1 + 0.5 * noise.at(1.1 * x + 2, 1.1 * y, 1.1 * z)
+            + 0.22 * noise.at(2.7 * x, 2.7 * y + 4, 2.7 * z))
         shaped.append((r * x, 0.8 * r * y, 0.9 * r * z))
     return ply(shaped, faces)
 
@@ -105,7 +106,11 @@ def island():
             inner, outer = grid[max(0, i - 1)][j], grid[min(rings, i + 1)][j]
             du = [right[k] - left[k] for k in range(3)]
             dv = [outer[k] - inner[k] for k in range(3)]
-            n = [dv[1] * du[2] - dv[2] * du[1], dv[2] * du[0] - dv[0] * du[2], dv[0] * du[1] - dv[1] * du[0]]
+            n = [
+                dv[1] * du[2] - dv[2] * du[1],
+                dv[2] * du[0] - dv[0] * du[2],
+                dv[0] * du[1] - dv[1] * du[0],
+            ]
             vertices.append(grid[i][j])
             uvs.append((j / sectors, 1 - i / rings))
             normals.append(_normalized(n) if i > 0 else [0, 1, 0])
@@ -168,7 +173,8 @@ def comet_head():
 
     k = _ROUND
     return patches(
-        [[(1.1, 0), (1.1, k), (1.1 * k, 1), (0, 1)], [(0, 1), (-1.2 * k, 1), (-1.2, k), (-1.2, 0)]], bumps
+        [[(1.1, 0), (1.1, k), (1.1 * k, 1), (0, 1)], [(0, 1), (-1.2 * k, 1), (-1.2, k), (-1.2, 0)]],
+        bumps,
     )
 
 

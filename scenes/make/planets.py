@@ -69,7 +69,8 @@ def _cratered(width, seed, count, largest, color, roughness, maria):
             relief = (east - west) * slope
             grain = noise.fractal(*(6 * c for c in p), 5)
             sea = step(-0.05, 0.35, noise.fractal(*(1.7 * c + 3 for c in p), 4)) * maria
-            level = 0.62 + roughness * grain - 0.34 * sea + 0.12 * field[y * width + x] + 0.2 * relief
+            level = (0.62 + roughness * grain - 0.34 * sea + 0.12 * field[y * width + x]
+                + 0.2 * relief)
             image.put(x, y, color(level))
     return image
 
@@ -87,7 +88,8 @@ def moon():
 def venus():
     noise = Noise(41)
     color = ramp(
-        (0.0, (140, 88, 36)), (0.35, (205, 152, 78)), (0.65, (236, 198, 126)), (1.0, (252, 236, 196))
+        (0.0, (140, 88, 36)), (0.35, (205, 152, 78)), (0.65, (236, 198, 126)),
+        (1.0, (252, 236, 196)),
     )
 
     def shade(x, y, z):
@@ -102,8 +104,10 @@ def venus():
 def earth():
     """A planet like ours but not ours: seas, shelves, biomes by latitude, ice, clouds."""
     noise, sky = Noise(57), Noise(58)
-    sea = ramp((0.0, (6, 24, 74)), (0.6, (14, 58, 124)), (0.9, (30, 104, 158)), (1.0, (74, 158, 178)))
-    warm = ramp((0.0, (34, 96, 40)), (0.35, (72, 118, 48)), (0.6, (164, 142, 84)), (1.0, (118, 92, 66)))
+    sea = ramp((0.0, (6, 24, 74)), (0.6, (14, 58, 124)), (0.9, (30, 104, 158)),
+        (1.0, (74, 158, 178)))
+    warm = ramp((0.0, (34, 96, 40)), (0.35, (72, 118, 48)), (0.6, (164, 142, 84)),
+        (1.0, (118, 92, 66)))
     cold = ramp((0.0, (52, 88, 56)), (0.5, (118, 116, 92)), (1.0, (206, 206, 204)))
 
     def shade(x, y, z):
@@ -114,7 +118,8 @@ def earth():
         if land < 0:
             color = sea(1 + land * 2.4)
         else:
-            dry = 0.5 + 0.55 * noise.fractal(3 * x + 6, 3 * y, 3 * z, 4) - 0.5 * abs(abs(y) - 0.4) * 2
+            dry = (0.5 + 0.55 * noise.fractal(3 * x + 6, 3 * y, 3 * z, 4)
+                - 0.5 * abs(abs(y) - 0.4) * 2)
             hills = min(1.0, land * 1.6)
             color = mix(warm(0.65 * dry + 0.45 * hills), cold(hills + 0.1), step(0.55, 0.8, away))
             relief = noise.fractal(11 * x, 11 * y, 11 * z, 3)
@@ -181,7 +186,8 @@ def jupiter():
 
 def saturn():
     color = ramp(
-        (0.0, (158, 122, 76)), (0.35, (204, 172, 118)), (0.65, (232, 208, 160)), (1.0, (250, 238, 208))
+        (0.0, (158, 122, 76)), (0.35, (204, 172, 118)), (0.65, (232, 208, 160)),
+        (1.0, (250, 238, 208)),
     )
     return _banded(83, 5.2, color, 0.35)
 
@@ -224,14 +230,16 @@ def ice():
     noise = Noise(131)
     color = ramp((0.0, (86, 92, 104)), (0.45, (176, 194, 210)), (1.0, (244, 250, 255)))
     return Image.of(
-        128, 128, lambda u, v: color(0.55 + 0.5 * noise.tile(u, v, 4, 5) + 0.1 * noise.tile(u, v, 16, 2))
+        128, 128, lambda u, v: color(0.55 + 0.5 * noise.tile(u, v, 4, 5)
+            + 0.1 * noise.tile(u, v, 16, 2))
     )
 
 
 def tail():
     """A comet's tail: bright at the head (v = 1), nothing at the end."""
     noise = Noise(137)
-    color = ramp((0.0, (2, 4, 10)), (0.4, (20, 52, 110)), (0.75, (96, 164, 224)), (1.0, (236, 248, 255)))
+    color = ramp((0.0, (2, 4, 10)), (0.4, (20, 52, 110)), (0.75, (96, 164, 224)),
+        (1.0, (236, 248, 255)))
     return Image.of(
         64, 256, lambda u, v: color(v**1.3 * (1 + 0.35 * noise.tile(u, v, 8, 3) * (1 - v)))
     )

@@ -140,7 +140,8 @@ def label():
         x = half + 128 - _width("FAROL", 7) // 2
         for dx, dy, color in ((4, 4, (6, 16, 44)), (0, 0, (255, 236, 150))):
             text(image, "FAROL", x + dx, 14 + dy, 7, color)
-        text(image, "LIGHT AND BITTER", half + 128 - _width("LIGHT AND BITTER", 2) // 2, 232, 2, (236, 244, 250))
+        claim = "LIGHT AND BITTER"
+        text(image, claim, half + 128 - _width(claim, 2) // 2, 232, 2, (236, 244, 250))
     return image
 
 
@@ -149,7 +150,8 @@ def lid():
     noise = Noise(521)
     return Image.of(
         256, 64,
-        lambda u, v: times((1.0, 1.01, 1.03), 186 + 30 * noise.tile(u, v, 2, 3, 0.6, 16) + 26 * cos(4 * pi * u)),
+        lambda u, v: times((1.0, 1.01, 1.03), 186 + 30 * noise.tile(u, v, 2, 3, 0.6, 16)
+            + 26 * cos(4 * pi * u)),
     )
 
 
@@ -161,11 +163,12 @@ def crate():
         rim = min(u, 1 - u, v, 1 - v)
         slant = abs(u - v) / sqrt(2)
         if rim < 0.12 or slant < 0.07:
-            along = noise.tile(v, u, 3, 4, 0.55, 16) if u < 0.12 or u > 0.88 else noise.tile(u, v, 3, 4, 0.55, 16)
+            upright = u < 0.12 or u > 0.88
+            along = noise.tile(*((v, u) if upright else (u, v)), 3, 4, 0.55, 16)
             edge = abs(rim - 0.12) if rim < 0.12 else min(0.07 - slant, rim - 0.12)
             tone = color(0.62 + 0.22 * along)
-            nail = any((u - a) ** 2 + (v - b) ** 2 < 0.00022 for a in (0.06, 0.94) for b in (0.06, 0.94))
-            return times((70, 66, 64), 1) if nail else times(tone, 0.6 + 0.4 * step(0.0, 0.012, edge))
+            nail = (min(u, 1 - u) - 0.06) ** 2 + (min(v, 1 - v) - 0.06) ** 2 < 0.00022
+            return (70, 66, 64) if nail else times(tone, 0.6 + 0.4 * step(0.0, 0.012, edge))
         board = (v * 6) % 1
         tone = color(0.36 + 0.24 * noise.tile(u, v, 3, 4, 0.55, 24))
         shadow = 0.7 + 0.3 * step(0.12, 0.17, rim) * step(0.07, 0.1, slant)
@@ -192,7 +195,8 @@ def hull():
     def shade(u, v):
         row = int(v * 8)
         x = u * 6 + 0.5 * (row & 1)
-        tone = 176 + 22 * noise.at(int(x) % 6 * 0.71 + 0.3, row * 0.93 + 0.4, 0.5) + 12 * noise.tile(u, v, 8, 4)
+        tone = (176 + 22 * noise.at(int(x) % 6 * 0.71 + 0.3, row * 0.93 + 0.4, 0.5)
+            + 12 * noise.tile(u, v, 8, 4))
         seam = min(x % 1, 1 - x % 1) * 1.3, min(v * 8 % 1, 1 - v * 8 % 1)
         body = times((0.94, 0.98, 1.04), tone * (0.55 + 0.45 * step(0.0, 0.05, min(seam))))
         if 0.44 < v < 0.5:
@@ -206,7 +210,8 @@ def hull():
 def compass():
     """What a texture coordinate is: columns of hue along u, brighter up v, a grid, an arrow up."""
     def shade(u, v):
-        hue = ramp((0, (214, 72, 64)), (0.25, (226, 176, 60)), (0.5, (88, 168, 92)), (0.75, (66, 128, 200)), (1, (214, 72, 64)))
+        hue = ramp((0, (214, 72, 64)), (0.25, (226, 176, 60)), (0.5, (88, 168, 92)),
+            (0.75, (66, 128, 200)), (1, (214, 72, 64)))
         grid = min(u * 8 % 1, 1 - u * 8 % 1, v * 8 % 1, 1 - v * 8 % 1)
         field = 1.0 if (int(u * 8) + int(v * 8)) % 2 else 0.82
         return mix((250, 250, 246), times(hue(u), (0.6 + 0.5 * v) * field), step(0.02, 0.05, grid))

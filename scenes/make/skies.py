@@ -1,7 +1,7 @@
 """Skies for skyboxes: functions of the direction, laid out as a 4x3 cross (left, front, right,
 back in the middle row; top above and bottom below front), so no edge shows a seam."""
 
-from math import cos, exp, pi, sqrt
+from math import exp, sqrt
 
 from .image import Image
 from .noise import Noise, Random, mix, ramp, step, times
@@ -77,7 +77,8 @@ def stars(side=512):
             return 3, 4, 10
         cloud = 0.5 + 0.6 * noise.fractal(2.5 * x, 2.5 * y, 2.5 * z, 5, 0.55)
         band = exp(-((off / 0.2) ** 2)) * max(0.0, cloud)
-        lane = step(0.15, 0.5, noise.fractal(3.5 * x + 8, 3.5 * y, 3.5 * z, 4)) * exp(-((off / 0.09) ** 2))
+        lane = step(0.15, 0.5, noise.fractal(3.5 * x + 8, 3.5 * y, 3.5 * z, 4))
+        lane *= exp(-((off / 0.09) ** 2))
         glow = band * (1 - 0.75 * lane)
         return 3 + 34 * glow, 4 + 32 * glow, 10 + 40 * glow
 
@@ -100,7 +101,9 @@ def nebula(side=512):
         heart = near**10 * 0.55 + near**80 * 0.6
         color = mix((128, 26, 92), (24, 112, 146), teal)
         r, g, b = (c * (gas * 0.75 + veil * 0.85 * (0.25 + gas)) for c in color)
-        r, g, b = r + 255 * heart * (0.4 + veil), g + 176 * heart * (0.35 + veil), b + 150 * heart * (0.4 + veil)
+        r += 255 * heart * (0.4 + veil)
+        g += 176 * heart * (0.35 + veil)
+        b += 150 * heart * (0.4 + veil)
         dark = step(0.1, 0.6, dust.fractal(1.9 * wx, 1.9 * wy + 3, 1.9 * wz, 5))
         k = 1 - 0.8 * dark
         return 6 + r * k, 5 + g * k, 16 + b * k
@@ -123,8 +126,8 @@ def night(side=512):
         halo = near**40 * 0.28 + near**400 * 0.55
         cloud = 0.0
         if y < 0.6:
-            cloud = step(0.1, 0.7, noise.fractal(1.7 * x, 8 * y + 2, 1.7 * z, 5)) * step(0.0, 0.1, y)
-            cloud *= 1 - step(0.25, 0.6, y)
+            cloud = step(0.1, 0.7, noise.fractal(1.7 * x, 8 * y + 2, 1.7 * z, 5))
+            cloud *= step(0.0, 0.1, y) * (1 - step(0.25, 0.6, y))
         base = mix((20, 30, 54), (5, 8, 22), step(0.0, 0.55, y))
         return tuple(c + k * halo + 9 * cloud * (1 + 4 * halo) for c, k in zip(base, (66, 72, 86)))
 

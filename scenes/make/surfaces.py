@@ -1,6 +1,6 @@
 """Surfaces: ground, walls, wood, metal. All that repeat are periodic in both directions."""
 
-from math import cos, floor, pi, sin, sqrt
+from math import floor, pi, sin, sqrt
 
 from .image import Image
 from .noise import Cells, Noise, Random, mix, ramp, step, times
@@ -8,7 +8,8 @@ from .noise import Cells, Noise, Random, mix, ramp, step, times
 
 def grass():
     noise, random = Noise(301), Random(302)
-    color = ramp((0.0, (30, 58, 20)), (0.45, (64, 108, 38)), (0.75, (104, 146, 54)), (1.0, (158, 176, 88)))
+    color = ramp((0.0, (30, 58, 20)), (0.45, (64, 108, 38)), (0.75, (104, 146, 54)),
+        (1.0, (158, 176, 88)))
     image = Image.of(512, 512, lambda u, v: color(0.4 + 0.3 * noise.tile(u, v, 4, 5)))
     for _ in range(14000):  # blades
         x, y = random.between(0, 512), random.between(0, 512)
@@ -24,8 +25,10 @@ def grass():
 def planks(boards=5, size=512):
     """A floor of boards along u."""
     noise, random = Noise(311), Random(312)
-    looks = [(random.between(-0.16, 0.16), random.next() % 97, random.unit()) for _ in range(boards)]
-    color = ramp((0.0, (66, 38, 20)), (0.4, (126, 80, 44)), (0.7, (166, 114, 66)), (1.0, (200, 152, 98)))
+    looks = [(random.between(-0.16, 0.16), random.next() % 97, random.unit())
+        for _ in range(boards)]
+    color = ramp((0.0, (66, 38, 20)), (0.4, (126, 80, 44)), (0.7, (166, 114, 66)),
+        (1.0, (200, 152, 98)))
 
     def shade(u, v):
         row = floor(v * boards)
@@ -44,7 +47,8 @@ def planks(boards=5, size=512):
 def wood():
     """Grain along v, wide enough to be projected on a turned piece."""
     noise = Noise(321)
-    color = ramp((0.0, (84, 44, 18)), (0.35, (146, 86, 40)), (0.7, (190, 126, 68)), (1.0, (222, 168, 108)))
+    color = ramp((0.0, (84, 44, 18)), (0.35, (146, 86, 40)), (0.7, (190, 126, 68)),
+        (1.0, (222, 168, 108)))
 
     def shade(u, v):
         bend = noise.tile(u, v, 2, 3)
@@ -59,7 +63,8 @@ def bricks():
     noise, random = Noise(331), Random(332)
     columns, rows = 6, 16
     tones = [[random.between(-0.26, 0.26) for _ in range(columns)] for _ in range(rows)]
-    color = ramp((0.0, (82, 34, 26)), (0.4, (140, 62, 44)), (0.7, (172, 88, 62)), (1.0, (204, 128, 96)))
+    color = ramp((0.0, (82, 34, 26)), (0.4, (140, 62, 44)), (0.7, (172, 88, 62)),
+        (1.0, (204, 128, 96)))
 
     def shade(u, v):
         row = floor(v * rows)
@@ -89,7 +94,8 @@ def _stones(n, seed, color, joint, size=512):
         dome = step(0.02, 0.26, second - first)
         grain = noise.tile(u, v, 16, 4)
         face = color(0.5 + tones[which] + 0.2 * grain)
-        return mix(times(joint, 0.9 + 0.3 * grain), times(face, 0.72 + 0.34 * dome), step(0.02, 0.1, second - first))
+        return mix(times(joint, 0.9 + 0.3 * grain), times(face, 0.72 + 0.34 * dome),
+            step(0.02, 0.1, second - first))
 
     return Image.of(size, size, shade)
 
@@ -108,7 +114,8 @@ def plaster():
     noise = Noise(361)
     color = ramp((0.0, (196, 182, 156)), (0.5, (228, 216, 192)), (1.0, (246, 238, 220)))
     return Image.of(
-        256, 256, lambda u, v: color(0.55 + 0.3 * noise.tile(u, v, 4, 5, 0.6) + 0.1 * noise.tile(u, v, 64, 2))
+        256, 256, lambda u, v: color(0.55 + 0.3 * noise.tile(u, v, 4, 5, 0.6)
+            + 0.1 * noise.tile(u, v, 64, 2))
     )
 
 
@@ -143,7 +150,8 @@ def metal():
     noise, random = Noise(381), Random(382)
     image = Image.of(
         256, 256,
-        lambda u, v: times((1, 1.01, 1.04), 168 + 26 * noise.tile(u, v, 2, 3, 0.7, 64) + 14 * noise.tile(u, v, 4, 3)),
+        lambda u, v: times((1, 1.01, 1.04), 168 + 26 * noise.tile(u, v, 2, 3, 0.7, 64)
+            + 14 * noise.tile(u, v, 4, 3)),
     )
     for _ in range(26):
         x, y = random.between(0, 256), random.between(0, 256)
@@ -162,7 +170,8 @@ def rust():
     def shade(u, v):
         broad = noise.tile(u, v, 4, 5, 0.6)
         fine = noise.tile(u, v, 32, 3)
-        return mix(paint(0.6 + 0.25 * broad + 0.08 * fine), worn(0.5 + 0.5 * fine), step(0.42, 0.56, broad + 0.12 * fine))
+        return mix(paint(0.6 + 0.25 * broad + 0.08 * fine), worn(0.5 + 0.5 * fine),
+            step(0.42, 0.56, broad + 0.12 * fine))
 
     return Image.of(256, 256, shade)
 
@@ -172,7 +181,8 @@ def concrete():
 
     def shade(u, v):
         first, _, _ = cells.at(u, v)
-        level = 118 + 22 * noise.tile(u, v, 3, 5, 0.6) + 8 * noise.tile(u, v, 64, 2) - 26 * step(0.12, 0.05, first)
+        level = (118 + 22 * noise.tile(u, v, 3, 5, 0.6) + 8 * noise.tile(u, v, 64, 2)
+            - 26 * step(0.12, 0.05, first))
         joint = min(abs((u * 4) % 1 - 0.5), abs((v * 4) % 1 - 0.5))
         return times((1.0, 0.985, 0.96), level * (0.62 + 0.38 * step(0.0, 0.02, joint)))
 
@@ -182,7 +192,8 @@ def concrete():
 def sea():
     """Night sea from above: long waves with bright crests."""
     noise = Noise(411)
-    color = ramp((0.0, (14, 34, 60)), (0.5, (30, 64, 96)), (0.8, (62, 106, 136)), (1.0, (170, 204, 216)))
+    color = ramp((0.0, (14, 34, 60)), (0.5, (30, 64, 96)), (0.8, (62, 106, 136)),
+        (1.0, (170, 204, 216)))
 
     def shade(u, v):
         bend = noise.tile(u, v, 3, 3)
@@ -246,11 +257,13 @@ def windows():
 
 def door():
     noise = Noise(441)
+    columns, rows = ((0.14, 0.46), (0.54, 0.86)), ((0.1, 0.45), (0.53, 0.9))
+    panels = [(*column, *row) for row in rows for column in columns]
 
     def shade(u, v):
         grain = noise.tile(u, v, 32, 3, 0.5, 1)
         tone = times((36, 92, 108), 1 + 0.14 * grain)
-        for x0, x1, y0, y1 in ((0.14, 0.46, 0.1, 0.45), (0.54, 0.86, 0.1, 0.45), (0.14, 0.46, 0.53, 0.9), (0.54, 0.86, 0.53, 0.9)):
+        for x0, x1, y0, y1 in panels:
             if x0 < u < x1 and y0 < v < y1:
                 edge = min(u - x0, x1 - u, (v - y0) * 2, (y1 - v) * 2)
                 side = 0.75 if min(x1 - u, (v - y0) * 2) > edge + 1e-9 else 1.3

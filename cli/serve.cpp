@@ -42,7 +42,7 @@ void addServe(CLI::App& root, Action& action) {
         ->check(CLI::Range(1, 64));
     command
         ->add_option("--queue", options->queue.waiting,
-                     "requests that may wait for a worker; 0: four a worker")
+                     "requests that may wait for a worker; 0: four a worker, at least 16")
         ->capture_default_str()
         ->check(CLI::Range(0, 10'000));
     addSeconds(*command, "--wait", options->queue.wait, "longest wait for a worker, s");

@@ -24,19 +24,22 @@ json toJson(const render::Stats& stats) {
 }
 
 json toJson(const render::SceneReport& report) {
-    return {{"title", report.title},
-            {"description", report.description},
-            {"width", report.width},
-            {"height", report.height},
-            {"animated", report.animated},
-            {"camera", toJson(report.camera)},
-            {"counts",
-             {{"models", report.models},
-              {"lights", report.lights},
-              {"textures", report.textures},
-              {"triangles", report.triangles},
-              {"textureBytes", report.textureBytes}}},
-            {"diagnostics", toJson(report.diagnostics)}};
+    json out = {{"title", report.title},
+                {"description", report.description},
+                {"width", report.width},
+                {"height", report.height},
+                {"animated", report.animated},
+                {"camera", toJson(report.camera)},
+                {"counts",
+                 {{"models", report.models},
+                  {"lights", report.lights},
+                  {"textures", report.textures},
+                  {"triangles", report.triangles},
+                  {"textureBytes", report.textureBytes}}},
+                {"diagnostics", toJson(report.diagnostics)}};
+    // One lap of the whole animation, for clients that play it.
+    if (report.loopSeconds) out["loopSeconds"] = *report.loopSeconds;
+    return out;
 }
 
 json linksOf(const ServedScene& scene) {

@@ -3,6 +3,7 @@
 #include <pthread.h>
 #include <signal.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 
@@ -49,7 +50,8 @@ int serve(const ServeOptions& options) {
     signal(SIGPIPE, SIG_IGN);
 
     QueueLimits queue = options.queue;
-    if (queue.waiting == 0) queue.waiting = 4 * options.workers;
+    // A browser opens six connections at once: fewer places than that would refuse its thumbnails.
+    if (queue.waiting == 0) queue.waiting = std::max(16, 4 * options.workers);
     RenderBackend backend(options.workers, queue);
     ServiceOptions service;
     service.scenesDir = options.scenesDir;

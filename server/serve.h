@@ -13,7 +13,7 @@ struct ServeOptions {
     std::string scenesDir;  ///< empty: no scenes are served
     int workers = 1;        ///< threads that draw, 1..64
     QueueLimits queue{0, std::chrono::milliseconds(2'000), std::chrono::milliseconds(10'000)};
-    ///< queue.waiting 0: four a worker
+    ///< queue.waiting 0: four a worker, at least 16
     std::size_t maxBodyBytes = 16U << 20;
     std::string corsOrigin;  ///< empty: no CORS headers
 };

@@ -180,10 +180,8 @@ http::Response Service::readyz(const Call& call) {
         throw Busy("not-ready", "The renderer does not draw as it should.", 5);
     }
     const BackendState state = backend_.state();
-    return jsonResponse({{"status", "ready"},
-                         {"workers", state.workers},
-                         {"busy", state.busy},
-                         {"queued", state.queued}});
+    return jsonResponse(
+        {{"status", "ready"}, {"workers", state.workers}, {"queued", state.queued}});
 }
 
 http::Response Service::version(const Call& call) {

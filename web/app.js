@@ -113,11 +113,13 @@ async function showFrame(response, number, source, start) {
   showFindings(findings);
   const stats = JSON.parse(response.headers.get('X-Farol-Stats') || '{}');
   const total = performance.now() - start;
-  $('hud').textContent = `${probe.naturalWidth}×${probe.naturalHeight}  ${total.toFixed(0)} ms  ` +
-    `${(blob.size / 1024).toFixed(0)} kB  ${stats.triangles ?? 0} triangles`;
-  $('download').href = url;
-  $('download').download = `${(source.key || 'scene').replaceAll('/', '-')}.${
-    blob.type.split('/')[1]}`;
+  $('hud').textContent = `${probe.naturalWidth}×${probe.naturalHeight} · ${total.toFixed(0)} ms · ` +
+    `${(blob.size / 1024).toFixed(0)} kB · ${stats.triangles ?? 0} triangles`;
+  if (blob.type === 'image/png') {
+    $('download').hidden = false;
+    $('download').href = url;
+    $('download').download = `${(source.key || 'scene').replaceAll('/', '-')}.png`;
+  }
 }
 
 async function showProblem(response, source) {
@@ -298,12 +300,16 @@ $('controls').addEventListener('submit', (event) => event.preventDefault());
 
 /* ---- opening scenes ----------------------------------------------------------------------- */
 
-function open(source, { title, description, animated, orbit = null, time = 0 }) {
+let keepPicture = false;
+
+function open(source, { title, description, animated, loopSeconds, orbit = null, time = 0 }) {
   Object.assign(view, { source, orbit, home: null, animated, playing: false });
+  $('time').max = loopSeconds && loopSeconds <= 3600 ? loopSeconds : 60;
   setTime(time);
   pending = null;
   if (flight) flight.controller.abort();
-  $('picture').removeAttribute('src');
+  if (source.key || !keepPicture) $('picture').removeAttribute('src');
+  keepPicture = !source.key;  // while one's own scene is being written the last good picture stays
   $('picture').alt = title;
   $('hud').textContent = '';
   $('findings').dataset.key = '';
@@ -331,7 +337,7 @@ async function openServed(id, query) {
   const target = (query.get('at') || '').split(',').map(Number);
   const orbit = query.has('az') && [...numbers, ...target].every(Number.isFinite) && target.length === 3
     ? { azimuth: numbers[0], elevation: numbers[1], distance: numbers[2], target } : null;
-  open(servedSource(scene), { ...scene, orbit, time: clamp(Number(query.get('t')) || 0, 0, 60) });
+  open(servedSource(scene), { ...scene, orbit, time: Math.max(0, Number(query.get('t')) || 0) });
   if (scene.camera) view.home = orbitOf(scene.camera);
   $('source').href = scene.links.source;
   $('source').textContent = 'Source XML';
@@ -382,6 +388,13 @@ addEventListener('drop', (event) => {
 
 let scenes = null;
 
+function blankCard(text) {
+  const blank = document.createElement('div');
+  blank.className = 'blank';
+  blank.textContent = text;
+  return blank;
+}
+
 function card(scene) {
   const item = document.createElement('li');
   item.className = 'card';
@@ -396,15 +409,18 @@ function card(scene) {
     image.width = 320;
     image.height = 240;
     image.alt = '';
+    // A busy server answers 503: ask again a little later, and not for ever.
+    let tries = 0;
+    image.onerror = () => {
+      if (++tries > 4) return image.replaceWith(blankCard('no picture'));
+      setTimeout(() => { image.src = `${scene.links.thumbnail}#${tries}`; }, 1000 * tries);
+    };
     image.src = scene.links.thumbnail;
     link.append(image);
     text.textContent = scene.description || `${scene.counts.models} models, ${scene.counts.lights} lights`;
     if (scene.animated) text.append(' · animated');
   } else {
-    const blank = document.createElement('div');
-    blank.className = 'blank';
-    blank.textContent = 'cannot be read';
-    link.append(blank);
+    link.append(blankCard('cannot be read'));
     text.className = 'bad';
     const fault = scene.diagnostics.find((one) => one.severity === 'error');
     text.textContent = fault ? sentence(fault) : 'This scene cannot be read.';
@@ -476,6 +492,7 @@ function show() {
     view.source = null;
     $('viewer').hidden = true;
   }
+  document.body.dataset.page = where;
   $('gallery').hidden = where !== 'gallery';
   $('editor').hidden = where !== 'try';
   for (const link of document.querySelectorAll('[data-nav]')) {

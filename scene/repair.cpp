@@ -36,7 +36,13 @@ bool takeGeneratorWords(std::string_view comment,
                         std::map<std::string, std::vector<std::string>>& comments, bool& conflict) {
     constexpr std::size_t kMaxWords = 32;
     conflict = false;
-    const std::vector<std::string_view> words = split(comment.substr(0, 1024));
+    comment = trimmed(comment);
+    while (!comment.empty() && comment.back() == '-') comment.remove_suffix(1);  // "--->"
+    // More markup in it: something was commented out, or the comment swallowed its neighbours.
+    if (comment.size() > 1024 || comment.find_first_of("<>") != std::string_view::npos ||
+        comment.find("--") != std::string_view::npos)
+        return false;
+    const std::vector<std::string_view> words = split(comment);
     if (words.size() < 3 || words.size() > kMaxWords) return false;
     std::string program = lowerCase(baseName(words.front()));
     if (program.size() > 4 && program.substr(program.size() - 4) == ".exe")

@@ -34,6 +34,20 @@ bool isUtf8(std::string_view text) {
     return true;
 }
 
+std::string utf8(std::string_view latin1) {
+    std::string result;
+    for (const char c : latin1) {
+        const auto byte = static_cast<unsigned char>(c);
+        if (byte < 0x80) {
+            result += c;
+        } else {
+            result += static_cast<char>(0xC0U | (byte >> 6U));
+            result += static_cast<char>(0x80U | (byte & 0x3FU));
+        }
+    }
+    return result;
+}
+
 }  // namespace
 
 RepairScanner::RepairScanner(std::string_view source, const LineIndex& lines,
@@ -106,7 +120,8 @@ void RepairScanner::comment() {
         findings_.warn("xml.comment-dashes", where(at_ + 4 + dashes),
                        "\"--\" inside a comment is ignored");
     bool conflict = false;
-    takeGeneratorWords(body, result_.generatorComments, conflict);
+    takeGeneratorWords(latin1_ ? utf8(body) : std::string(body), result_.generatorComments,
+                       conflict);
     if (conflict)
         findings_.warn("scene.generator-conflict", where(at_),
                        "another comment makes this file otherwise; the first one is taken");

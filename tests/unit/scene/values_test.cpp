@@ -422,6 +422,10 @@ TEST_CASE("texts") {
         {world("<!-- generator patch teapot.patch 10 b.3d -->"), words,
          "b.3d: patch teapot.patch 10"},
         {world("<!-- generators are nice -->"), words, ""},
+        {world("<!-- generator box 1 b.3d --->"), words, "b.3d: box 1"},
+        {world("<!-- generator box 1 b.3d -- or a cone -->"), words, ""},
+        {world("<!-- generator box 1 <b.3d> -->"), words, ""},
+        {world("<!-- generator box 1 caf\xE9.3d -->"), words, "caf\xC3\xA9.3d: box 1"},
         {world("<!-- generator -->"), words, ""},
         {"<!-- generator box 1 b.3d --><world/>", words, "b.3d: box 1"},
     };

@@ -96,28 +96,46 @@ class Resolver {
         if (model.revolve)
             return shape({"revolution", model.file, std::to_string(*model.revolve)}, model,
                          "a profile to revolve");
-        if (!model.command.empty()) {
-            const auto words =
-                wordsOfComment(splitWords(model.command), "", model.where, diagnostics_);
-            return shape(words, model, "its command");
-        }
-        if (const auto path = scene::locate(assets_, model.file, model.where, diagnostics_)) {
+        const auto path = model.file.empty()
+                              ? std::nullopt
+                              : scene::locate(assets_, model.file, model.where, diagnostics_);
+        if (path) {
             report(Severity::info, "asset.from-file", model.where,
                    "\"" + model.file + "\" is the file \"" + *path + "\"");
             if (endsWith(*path, ".patch"))
                 return {ModelSource::Kind::shape, *path, {"patch", *path}};
             return {ModelSource::Kind::file, *path, {}};
         }
+        if (!model.command.empty()) {
+            const auto words =
+                wordsOfComment(splitWords(model.command), "", model.where, diagnostics_);
+            return shape(words, model, "its command");
+        }
+        const auto named = wordsOfName(model.file);
         if (const auto* words = comment(model.file))
-            return shape(wordsOfComment(*words, model.file, model.where, diagnostics_), model,
-                         "its generator comment");
-        if (const auto words = wordsOfName(model.file)) return fromName(*words, model);
+            if (const auto taken = fromComment(*words, named, model)) return *taken;
+        if (named) return fromName(*named, model);
         if (builtinFile(model.file))
             return shape({"patch", baseNameOf(model.file)}, model, "a built-in file");
         throw Error("asset.missing",
                     "there is no file \"" + model.file +
                         "\", no generator comment for it, and its name is no shape's" +
                         nearestFile(model.file, assets_, shapeNames(model.file)));
+    }
+
+    /// A comment that makes no sense counts for nothing where the name itself says all.
+    std::optional<ModelSource> fromComment(const std::vector<std::string>& words,
+                                           const std::optional<std::vector<std::string>>& named,
+                                           const scene::Model& model) {
+        try {
+            return shape(wordsOfComment(words, model.file, model.where, diagnostics_), model,
+                         "its generator comment");
+        } catch (const Error& error) {
+            if (!named || named->size() < 2) throw;
+            report(Severity::warning, error.code(), model.where,
+                   std::string(error.what()) + "; the comment is not used, the file's name is");
+            return std::nullopt;
+        }
     }
 
     /// "sphere.3d" alone says no size: the unit one is taken, and said to be a guess.

@@ -29,6 +29,9 @@ Mesh decodeBlocks(const NumberRows& rows);
 Mesh decodeCounted(const NumberRows& rows);
 /// A first row of one count: indices then vertices, or points, or points and normals.
 Mesh decodeSingleCount(const NumberRows& rows);
+/// Two to four sections, each after its count: positions, [normals], [UVs], indices.
+Mesh decodeSections(const NumberRows& rows);
+bool looksLikeSections(const NumberRows& rows);
 /// No indices: every three vertices are a triangle.
 Mesh decodeSoup(const NumberRows& rows);
 /// Up to four lists, each on one line or ended by `;`: positions, indices, normals, UVs.

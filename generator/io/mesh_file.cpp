@@ -37,6 +37,7 @@ Mesh decodeNumbers(const NumberRows& rows) {
     const auto widthOf = [&rows](std::size_t i) { return rows.rows[i].count; };
     if (width == 2 && count > 1) return decodeCounted(rows);
     if (width == 1 && count > 2 && widthOf(1) == 1 && widthOf(2) == 3) return decodeCounted(rows);
+    if (width == 1 && looksLikeSections(rows)) return decodeSections(rows);
     if (width == 1 && count > 1) return decodeSingleCount(rows);
     const bool threeLines = count > 2 && width == 3 && widthOf(1) == 3 && widthOf(2) == 2;
     if (width == 3 && rows.blocks() > 1 && !threeLines && !isSpacedSoup(rows))

@@ -108,7 +108,8 @@ Mesh decodeBlocks(const NumberRows& rows) {
 Mesh decodeCounted(const NumberRows& rows) {
     const Row& head = rows.rows[0];
     std::size_t at = 1;
-    double countV = rows.at(head)[0], countI = 0;
+    const double countV = rows.at(head)[0];
+    double countI = 0;
     if (head.count == 2) {
         countI = rows.at(head)[1];
     } else {
@@ -179,7 +180,8 @@ Mesh decodeSingleCount(const NumberRows& rows) {
         mesh.indices = indicesOf(rows, 1, begin, mesh.positions.size());
         return mesh;
     }
-    if (left != n && left != 2 * n)
+    const bool uvs = left == 3 * n && rows.rows.back().count == 2;
+    if (left != n && left != 2 * n && !uvs)
         rows.refuse("mesh.truncated", rows.rows.back(),
                     "the file says " + std::to_string(n) + " vertices but holds " +
                         std::to_string(left) + " lines");
@@ -187,7 +189,8 @@ Mesh decodeSingleCount(const NumberRows& rows) {
         rows.refuse("mesh.truncated", head, "the number of vertices is not a multiple of three");
     checkTriangles(n / 3, rows.file);
     mesh.positions = vectorsOf<3, glm::vec3>(rows, 1, 1 + n);
-    if (left == 2 * n) mesh.normals = vectorsOf<3, glm::vec3>(rows, 1 + n, 1 + 2 * n);
+    if (left > n) mesh.normals = vectorsOf<3, glm::vec3>(rows, 1 + n, 1 + 2 * n);
+    if (uvs) mesh.uvs = vectorsOf<2, glm::vec2>(rows, 1 + 2 * n, 1 + 3 * n);
     for (std::uint32_t i = 0; i < n; ++i) mesh.indices.push_back(i);
     return mesh;
 }

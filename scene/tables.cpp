@@ -83,7 +83,7 @@ constexpr AttributeSpec kScatter[] = {
     {"xzMax", "xzMaxR", Kind::number, 0},
     {"yMin", "yMinR"},
     {"yMax", "yMaxR"},
-    {"seed", "", Kind::integer, 0, 2147483647},
+    {"seed", "", Kind::integer, 0, 1e9},
 };
 constexpr AttributeSpec kModel[] = {
     {"file", "src", Kind::text},

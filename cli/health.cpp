@@ -37,7 +37,7 @@ void addHealth(CLI::App& root, Action& action) {
         ->capture_default_str();
     command->add_option("--timeout", flags->timeoutS, "how long to wait for it, s")
         ->capture_default_str()
-        ->check(CLI::Range(0.001, 600.0));
+        ->check(numberIn(0.001, 600.0));
     command->callback(
         [&action, flags] { action = [flags](Report& report) { return run(*flags, report); }; });
 }

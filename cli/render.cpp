@@ -109,7 +109,7 @@ void addRender(CLI::App& root, Action& action) {
     command
         ->add_option("--fps", flags->animation.fps,
                      "frames a second; without --frames as many as make one loop")
-        ->check(CLI::Range(0.01, 1000.0))
+        ->check(numberIn(0.01, 1000.0))
         ->group("Animation");
     for (const render::OptionSpec& spec : render::optionSpecs())
         command

@@ -14,7 +14,7 @@ CLI::Option* addSeconds(CLI::App& command, const std::string& name, std::chrono:
         into = std::chrono::milliseconds(static_cast<std::int64_t>(seconds * 1000.0));
     };
     return command.add_option_function<double>(name, set, help)
-        ->check(CLI::Range(0.001, 86'400.0))
+        ->check(numberIn(0.001, 86'400.0))
         ->default_str(std::to_string(into.count() / 1000));
 }
 

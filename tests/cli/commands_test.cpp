@@ -222,3 +222,21 @@ TEST_CASE("what a file says cannot reach the terminal") {
     CHECK(found.status == 1);
     for (const char c : found.err) CHECK((c == '\n' || static_cast<unsigned char>(c) >= 0x20));
 }
+
+TEST_CASE("an animation is one file of frames, or numbered files") {
+    freshFolder("animation");
+    std::string scene = kScene;
+    scene.insert(scene.find("<models>"),
+                 "<transform><rotate time=\"2\" x=\"0\" y=\"1\" z=\"0\"/></transform>");
+    writeFile("scene.xml", scene);
+    const Outcome one = run("render scene.xml -o loop.png --frames 3 --json");
+    INFO(one.err);
+    REQUIRE(one.status == 0);
+    const json told = json::parse(one.out);
+    CHECK(told.at("frames") == 3);
+    CHECK(told.at("fps") == Approx(1.5));  // one turn in two seconds
+    CHECK_THAT(readFile("loop.png"), Catch::Contains("acTL"));
+    CHECK(picture("loop.png") == draw("scene.xml"));  // viewers without animation show time 0
+    CHECK(run("render scene.xml -o loop.png --frames 0").status == 2);
+    CHECK(run("render scene.xml -o loop.png --fps nan").status == 2);
+}

@@ -67,6 +67,9 @@ TEST_CASE("what the command line gets wrong is exit code 2") {
         {"compare a.png b.png --diff d.jpg", 2, {"d.jpg"}},
         {"serve --port 70000", 2, {"--port"}},
         {"serve --port 0 --scenes nowhere", 2, {"nowhere"}},
+        {"serve --deadline nan", 2, {"--deadline", "nan"}},
+        {"serve --wait -1", 2, {"--wait"}},
+        {"health --timeout inf", 2, {"--timeout"}},
         {"health not-a-url", 2, {"not-a-url"}},
         {"health https://127.0.0.1", 2, {"http://host:port"}},
     });

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "generator/registry.h"
+#include "render/build_id.h"
 #include "render/camera.h"
 #include "render/encode.h"
 #include "render/gl/painter.h"
@@ -85,6 +86,7 @@ struct Renderer::State {
 
 Renderer::Renderer() : state_(std::make_unique<State>()) {}
 Renderer::~Renderer() = default;
+const std::string& Renderer::gl() const { return state_->painter.description(); }
 Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 
@@ -159,7 +161,7 @@ SceneReport inspect(const Job& job) {
 }
 
 std::string version() {
-    static const std::string text = [] { return std::string("farol ") + FAROL_VERSION; }();
+    static const std::string text = std::string("farol ") + FAROL_VERSION + " build " + buildId();
     return text;
 }
 

@@ -71,6 +71,8 @@ class Renderer {
     Picture render(const Job& job);
     /// The same without encoding: the pixels go to `image`, Picture::bytes stays empty.
     Picture draw(const Job& job, Image& image);
+    /// The GL at hand: "llvmpipe (LLVM ...), 4.5 (Core Profile) Mesa 22.3.6".
+    const std::string& gl() const;
 
   private:
     struct State;
@@ -80,7 +82,8 @@ class Renderer {
 /// Reads and resolves without GL; throws Error as Renderer::render does for what it can tell.
 SceneReport inspect(const Job& job);
 
-/// "OSMesa 22.3.6 ..." and our own version, for /version and ETags.
+/// "farol 0.1.0 build 0123456789abcdef": our version and the build of all that draws (build_id.h),
+/// for /version and ETags.
 std::string version();
 
 }  // namespace farol::render

@@ -126,7 +126,7 @@ std::pair<std::size_t, std::size_t> RepairScanner::bareValue() {
 
 /// The length of a typographic quote at this place, or 0.
 std::size_t RepairScanner::curlyQuote(std::size_t at) const {
-    if (latin1_) return 0;
+    if (latin1_ || at >= source_.size() || source_[at] != '\xE2') return 0;
     for (const std::string_view quote :
          {"\xE2\x80\x9C", "\xE2\x80\x9D", "\xE2\x80\x9E", "\xE2\x80\x98", "\xE2\x80\x99"})
         if (source_.compare(at, quote.size(), quote) == 0) return quote.size();

@@ -2,6 +2,7 @@
 
 #include <cassert>
 #include <string>
+#include <vector>
 
 #include "scene/words.h"
 
@@ -231,8 +232,16 @@ bool isAmong(std::string_view words, std::string_view word) {
 }
 
 const ElementSpec* findChild(const ElementSpec& parent, std::string_view name) {
-    for (const ElementSpec& one : kElements)
-        if (isAmong(parent.children, one.name) && isNamed(one.name, one.aliases, name)) return &one;
+    // The rows that may stand in each row's element, so that reading does not search them all.
+    static const auto kChildren = [] {
+        std::vector<std::vector<const ElementSpec*>> rows(std::size(kElements));
+        for (std::size_t i = 0; i < rows.size(); ++i)
+            for (const ElementSpec& one : kElements)
+                if (isAmong(kElements[i].children, one.name)) rows[i].push_back(&one);
+        return rows;
+    }();
+    for (const ElementSpec* one : kChildren[static_cast<std::size_t>(&parent - kElements)])
+        if (isNamed(one->name, one->aliases, name)) return one;
     return nullptr;
 }
 

@@ -27,7 +27,7 @@ struct ElementSpec {
     std::string_view children;  ///< canonical names of elements that may stand in it
 };
 
-/// The element `name` as it may stand in `parent`, or null.
+/// The element `name` as it may stand in `parent` (one of elementSpecs()), or null.
 const ElementSpec* findChild(const ElementSpec& parent, std::string_view name);
 
 /// The element of that canonical name. Precondition: it exists.

@@ -17,13 +17,18 @@ const uploadedSource = (files, main) => ({
   key: null,
   image: () => null,
   fetch(options, signal) {
-    const body = new FormData();
-    body.append('scene', main, main.webkitRelativePath || main.name);
-    for (const file of files)
-      if (file !== main) body.append('file', file, file.webkitRelativePath || file.name);
+    const body = bodyOf(files, main);
     return fetch(`/v1/render?${new URLSearchParams(options)}`, { method: 'POST', body, signal });
   },
 });
+
+function bodyOf(files, main) {
+  const body = new FormData();
+  body.append('scene', main, main.webkitRelativePath || main.name);
+  for (const file of files)
+    if (file !== main) body.append('file', file, file.webkitRelativePath || file.name);
+  return body;
+}
 
 const view = {
   source: null,
@@ -266,6 +271,13 @@ function setTime(seconds) {
   $('time-value').textContent = `${seconds.toFixed(1)} s`;
 }
 
+// The slider runs over one lap of the whole animation, or a minute where there is none.
+function setAnimated(animated, loopSeconds) {
+  view.animated = animated;
+  $('time-controls').hidden = !animated;
+  $('time').max = loopSeconds || 60;
+}
+
 function tick(now) {
   if (!view.playing) return;
   setTime((view.time + Math.min(0.25, (now - lastTick) / 1000)) % Number($('time').max));
@@ -303,8 +315,8 @@ $('controls').addEventListener('submit', (event) => event.preventDefault());
 let keepPicture = false;
 
 function open(source, { title, description, animated, loopSeconds, orbit = null, time = 0 }) {
-  Object.assign(view, { source, orbit, home: null, animated, playing: false });
-  $('time').max = loopSeconds && loopSeconds <= 3600 ? loopSeconds : 60;
+  Object.assign(view, { source, orbit, home: null, playing: false });
+  setAnimated(animated, loopSeconds);
   setTime(time);
   pending = null;
   if (flight) flight.controller.abort();
@@ -316,7 +328,6 @@ function open(source, { title, description, animated, loopSeconds, orbit = null,
   showFindings([]);
   $('title').textContent = title;
   $('description').textContent = description || '';
-  $('time-controls').hidden = !animated;
   $('play').textContent = 'Play';
   $('viewer').hidden = false;
   const link = $('source');
@@ -360,12 +371,15 @@ function openFiles(list) {
 let uploaded = [];
 let uploadedName = 'scene.xml';
 
-function openText(main, files) {
-  open(uploadedSource(files, main), { title: main.name, description: '', animated: /time\s*=|"rgb"/i.test($('xml').value) });
-  main.text().then((text) => {
-    view.animated = /\btime\s*=/i.test(text);
-    $('time-controls').hidden = !view.animated;
-  });
+async function openText(main, files) {
+  const source = uploadedSource(files, main);
+  open(source, { title: main.name, description: '', animated: false });
+  const response = await fetch('/v1/validate', { method: 'POST', body: bodyOf(files, main) });
+  if (!response.ok || view.source !== source) return;  // what is wrong comes with the picture
+  const { title, description, animated, loopSeconds } = await response.json();
+  if (title) $('title').textContent = title;
+  $('description').textContent = description;
+  setAnimated(animated, loopSeconds);
 }
 
 $('render').addEventListener('click', () => {

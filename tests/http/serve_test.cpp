@@ -1,0 +1,121 @@
+// The program itself: `farol serve` from its first line to its end by a signal.
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <thread>
+
+#include "fixture.h"
+
+using namespace farol::test;
+
+namespace {
+
+/// `farol serve` with these arguments; its stdout is read, its stderr goes nowhere.
+class Daemon {
+  public:
+    explicit Daemon(const std::vector<std::string>& arguments) {
+        int ends[2];
+        REQUIRE(pipe2(ends, O_CLOEXEC) == 0);
+        std::vector<std::string> words = {FAROL_BINARY, "serve"};
+        words.insert(words.end(), arguments.begin(), arguments.end());
+        std::vector<char*> argv;
+        for (std::string& word : words) argv.push_back(word.data());
+        argv.push_back(nullptr);
+        pid_ = fork();
+        REQUIRE(pid_ >= 0);
+        if (pid_ == 0) {
+            dup2(ends[1], 1);
+            const int nowhere = open("/dev/null", O_WRONLY);
+            dup2(nowhere, 2);
+            execv(argv[0], argv.data());
+            _exit(127);
+        }
+        close(ends[1]);
+        out_ = ends[0];
+    }
+    ~Daemon() {
+        if (pid_ > 0) {
+            kill(pid_, SIGKILL);
+            waitpid(pid_, nullptr, 0);
+        }
+        close(out_);
+    }
+
+    std::string firstLine() {
+        std::string line;
+        char c = 0;
+        while (read(out_, &c, 1) == 1 && c != '\n') line += c;
+        return line;
+    }
+    void signal(int number) const { kill(pid_, number); }
+    /// Waits for the end: the exit code, or 128 and the signal's number.
+    int exitCode() {
+        int status = 0;
+        waitpid(pid_, &status, 0);
+        pid_ = -1;
+        return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    }
+
+  private:
+    pid_t pid_ = -1;
+    int out_ = -1;
+};
+
+int portIn(const std::string& line) {
+    const std::string start = "listening on http://127.0.0.1:";
+    INFO(line);
+    REQUIRE(line.rfind(start, 0) == 0);
+    return std::stoi(line.substr(start.size()));
+}
+
+}  // namespace
+
+TEST_CASE("serve says where it listens, draws, and ends with 0 on a signal") {
+    for (const int number : {SIGTERM, SIGINT}) {
+        Daemon daemon({"--port", "0", "--scenes", std::string(FAROL_SOURCE_DIR) + "/scenes"});
+        const int port = portIn(daemon.firstLine());
+        CHECK(get(port, "/livez").status == 200);
+        CHECK(get(port, "/readyz").status == 200);
+        CHECK(get(port, "/version").json()["name"] == "farol");
+        CHECK(get(port, "/v1/scenes").json()["total"].get<int>() > 0);
+        CHECK(get(port, "/").body.find("<html") != std::string::npos);
+        daemon.signal(number);
+        CHECK(daemon.exitCode() == 0);
+    }
+}
+
+TEST_CASE("a render in flight is answered when the program is told to end") {
+    Daemon daemon({"--port", "0"});
+    const int port = portIn(daemon.firstLine());
+    REQUIRE(get(port, "/readyz").status == 200);
+    const std::string scene =
+        "<world><camera><position x=\"3\" y=\"2\" z=\"5\"/><lookAt x=\"0\" y=\"0\" z=\"0\"/>"
+        "<up x=\"0\" y=\"1\" z=\"0\"/><projection fov=\"60\" near=\"1\" far=\"100\"/></camera>"
+        "<group><models><model file=\"torus_2_0.5_300_300.3d\"/></models></group></world>";
+    RawClient client(port);
+    client.send(
+        "POST /v1/render?width=2000&height=2000&aa=4 HTTP/1.1\r\nHost: x\r\n"
+        "Content-Type: text/xml\r\nExpect: 100-continue\r\nContent-Length: " +
+        std::to_string(scene.size()) + "\r\n\r\n");
+    REQUIRE(client.read().status == 100);  // the request is with its handler now
+    client.send(scene);
+    daemon.signal(SIGTERM);
+    const Answer answer = client.read();
+    CHECK(answer.status == 200);
+    CHECK(answer.closed);
+    CHECK(daemon.exitCode() == 0);
+}
+
+TEST_CASE("serve that cannot listen says so and fails") {
+    Daemon first({"--port", "0"});
+    const int port = portIn(first.firstLine());
+    Daemon second({"--port", std::to_string(port)});
+    CHECK(second.firstLine().empty());
+    CHECK(second.exitCode() != 0);
+    Daemon nowhere({"--port", "0", "--scenes", "/there/is/no/such/folder"});
+    CHECK(nowhere.firstLine().empty());
+    CHECK(nowhere.exitCode() != 0);
+}

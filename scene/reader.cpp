@@ -1,5 +1,7 @@
 #include "scene/reader.h"
 
+#include <algorithm>
+
 #include "scene/scene_builder.h"
 
 namespace farol::scene {
@@ -40,8 +42,13 @@ ReadResult read(std::string_view xml, const ReadOptions& options, const Assets& 
         findings.add(error.diagnostics());
     }
     result.diagnostics = findings.take();
-    if (findings.failed()) throw Error(std::move(result.diagnostics));
-    return result;
+    if (!findings.failed()) return result;
+    // A broken document decides over what a broken document seems to say.
+    std::stable_partition(
+        result.diagnostics.begin(), result.diagnostics.end(), [](const Diagnostic& one) {
+            return one.severity == Severity::error && one.code.rfind("xml.", 0) == 0;
+        });
+    throw Error(std::move(result.diagnostics));
 }
 
 }  // namespace farol::scene

@@ -28,8 +28,9 @@ struct ReadResult {
 };
 
 /// Reads a scene of any dialect, repairing what real files get wrong (see docs/scene-language.md).
-/// `assets` serves includes and entities only. Throws Error with all diagnostics found when the
-/// document is not readable XML (xml.*), is not a scene (scene.*) or is over a limit (limit.*).
+/// `assets` serves includes and entities only. Throws Error with all diagnostics found (xml.*
+/// errors first, then in document order) when the document is not readable XML (xml.*), is not a
+/// scene (scene.*) or is over a limit (limit.*), or an included file cannot be had (asset.*).
 ReadResult read(std::string_view xml, const ReadOptions& options, const Assets& assets);
 
 }  // namespace farol::scene

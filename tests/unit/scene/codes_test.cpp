@@ -281,6 +281,21 @@ TEST_CASE("a refused document tells all that was found") {
     REQUIRE_FALSE(outcome.scene);
     std::vector<int> lines;
     for (const Diagnostic& one : outcome.diagnostics) lines.push_back(one.where.line);
-    CHECK(lines == std::vector<int>{2, 3, 4, 6});
+    CHECK(lines == std::vector<int>{6, 2, 3, 4});  // what breaks the document comes first
     CHECK(outcome.find("xml.unclosed") != nullptr);
+}
+
+TEST_CASE("a truncated document is told as such, whatever it seems to say") {
+    const std::string whole =
+        "<world>\n<camera><position x=\"0\" y=\"0\" z=\"0\"/><lookAt x=\"1\"/></camera>\n"
+        "<lights><light type=\"directional\" dirX=\"1\"/></lights>\n"
+        "<group><transform><rotate angle=\"9\" y=\"1\"/></transform></group>\n</world>";
+    for (std::size_t length = 1; length < whole.size(); ++length) {
+        const Outcome outcome = tryRead(whole.substr(0, length));
+        INFO(whole.substr(0, length));
+        INFO(outcome.text());
+        REQUIRE_FALSE(outcome.scene);
+        CHECK(outcome.diagnostics.front().code.rfind("xml.", 0) == 0);
+    }
+    CHECK(tryRead(whole).scene);
 }

@@ -249,6 +249,7 @@ TEST_CASE("materials of all dialects") {
         {part("<diffuse cycles=\"true\"/>"),
          [](const Scene& s) { return material(s).diffuse.cycles ? 1 : 0; }, 1},
         {scene2017(of2017 + "diffR=0.25/></models>"), diffuseR, 0.25},
+        {scene2017(of2017 + "R=0.25 G=0 B=0 /></models>"), diffuseR, 0.25},
         {scene2017(of2017 + "diffG=0.25/></models>"), diffuseR, double{0.8F}},
         {scene2017(of2017 + "diffR=128 /></models>"), diffuseR, double{128.0F / 255.0F}},
         {scene2017(of2017 + "ambtr=0.5/></models>"),

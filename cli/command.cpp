@@ -5,10 +5,11 @@
 
 namespace farol::cli {
 
-CLI::Validator numberIn(double min, double max) {
+void takesNumber(CLI::Option* option, double min, double max) {
     std::ostringstream range;
+    range.precision(10);
     range << min << ".." << max;
-    const auto check = [min, max, range = range.str()](std::string& text) -> std::string {
+    const auto check = [min, max, range = range.str()](const std::string& text) -> std::string {
         double value = 0.0;
         const char* end = text.data() + text.size();
         const auto [at, error] = std::from_chars(text.data(), end, value);
@@ -16,7 +17,7 @@ CLI::Validator numberIn(double min, double max) {
         if (error == std::errc() && at == end && inside) return "";
         return text + " is not a number in " + range;
     };
-    return CLI::Validator(check, range.str());
+    option->check(check)->type_name(range.str())->capture_default_str();
 }
 
 }  // namespace farol::cli

@@ -40,8 +40,9 @@ void addCompare(CLI::App& root, Action& action);
 void addHealth(CLI::App& root, Action& action);
 void addVersion(CLI::App& root, Action& action);
 
-/// Takes finite numbers from min to max (CLI::Range lets NaN pass).
-CLI::Validator numberIn(double min, double max);
+/// Lets the option take finite numbers from min to max (CLI::Range lets NaN pass), and its help
+/// say so, with the default.
+void takesNumber(CLI::Option* option, double min, double max);
 
 /// "farol 0.1.0", then the renderer's own line.
 std::string versionLine();

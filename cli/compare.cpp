@@ -97,11 +97,14 @@ int run(const Flags& flags, Report& report) {
 void addCompare(CLI::App& root, Action& action) {
     CLI::App* command = root.add_subcommand("compare", "Says how two pictures of one size differ");
     const auto flags = std::make_shared<Flags>();
-    command->add_option("A", flags->first, "a picture file")->required();
-    command->add_option("B", flags->second, "a picture file")->required();
-    command->add_option("--crop", flags->crop,
-                        "WxH+X+Y, px from the top left: cuts each picture that is not WxH yet");
-    command->add_option("--diff", flags->diff, "writes a .png that shows where they differ");
+    command->add_option("A", flags->first, "a picture file")->type_name("")->required();
+    command->add_option("B", flags->second, "a picture file")->type_name("")->required();
+    command
+        ->add_option("--crop", flags->crop,
+                     "px from the top left: cuts each picture that is not WxH yet")
+        ->type_name("WxH+X+Y");
+    command->add_option("--diff", flags->diff, "writes a .png that shows where they differ")
+        ->type_name("FILE");
     command->callback(
         [&action, flags] { action = [flags](Report& report) { return run(*flags, report); }; });
 }

@@ -121,6 +121,7 @@ void addGenerate(CLI::App& root, Action& action) {
         ->add_option("--uv", *uv,
                      "texture coordinates: a whole picture a face, or one picture "
                      "around the shape, or as the 2017 engine; default face")
+        ->type_name("")
         ->check(CLI::IsMember({"face", "atlas", "2017"}));
     command->footer(allShapes);
     command->allow_extras();

@@ -34,10 +34,10 @@ void addHealth(CLI::App& root, Action& action) {
         root.add_subcommand("health", "Asks a service whether it is ready; exit code 0 if so");
     const auto flags = std::make_shared<Flags>();
     command->add_option("URL", flags->url, "of the service, http://host:port")
+        ->type_name("")
         ->capture_default_str();
-    command->add_option("--timeout", flags->timeoutS, "how long to wait for it, s")
-        ->capture_default_str()
-        ->check(numberIn(0.001, 600.0));
+    takesNumber(command->add_option("--timeout", flags->timeoutS, "how long to wait for it, s"),
+                0.001, 600.0);
     command->callback(
         [&action, flags] { action = [flags](Report& report) { return run(*flags, report); }; });
 }

@@ -92,25 +92,26 @@ void addRender(CLI::App& root, Action& action) {
     CLI::App* command = root.add_subcommand("render", "Draws a scene or a mesh file");
     const auto flags = std::make_shared<Flags>();
     command->add_option("SCENE", flags->scene, "an .xml scene, a mesh file, or - for stdin")
+        ->type_name("")
         ->required();
     command->add_option("-o,--output", flags->output, "the picture: .png .jpg .webp, - for stdout")
+        ->type_name("FILE")
         ->required();
-    command->add_option("--assets", flags->assets,
-                        "folder of the files that the scene names; default the scene's own");
+    command
+        ->add_option("--assets", flags->assets,
+                     "folder of the files that the scene names; default the scene's own")
+        ->type_name("DIR");
     command->add_flag("--strict", flags->strict, "takes warnings for errors");
     command->add_flag("--stats", flags->stats, "says what was drawn, and how long it took");
     command->add_flag("-v,--verbose", flags->verbose, "shows information beside warnings");
-    command
-        ->add_option(
-            "--frames", flags->animation.frames,
-            "renders an animation of that many frames; they make one loop unless --fps is given")
-        ->check(CLI::Range(1, 3600))
-        ->group("Animation");
-    command
-        ->add_option("--fps", flags->animation.fps,
-                     "frames a second; without --frames as many as make one loop")
-        ->check(numberIn(0.01, 1000.0))
-        ->group("Animation");
+    CLI::Option* frames = command->add_option(
+        "--frames", flags->animation.frames,
+        "renders an animation of that many frames; they make one loop unless --fps is given");
+    CLI::Option* fps =
+        command->add_option("--fps", flags->animation.fps,
+                            "frames a second; without --frames as many as make one loop");
+    takesNumber(frames->group("Animation"), 1, 3600);
+    takesNumber(fps->group("Animation"), 0.01, 1000.0);
     for (const render::OptionSpec& spec : render::optionSpecs())
         command
             ->add_option_function<std::string>(

@@ -8,14 +8,14 @@ namespace farol::cli {
 namespace {
 
 /// Times are read as seconds and become the server's milliseconds.
-CLI::Option* addSeconds(CLI::App& command, const std::string& name, std::chrono::milliseconds& into,
-                        const std::string& help) {
+void addSeconds(CLI::App& command, const std::string& name, std::chrono::milliseconds& into,
+                const std::string& help) {
     const auto set = [&into](double seconds) {
         into = std::chrono::milliseconds(static_cast<std::int64_t>(seconds * 1000.0));
     };
-    return command.add_option_function<double>(name, set, help)
-        ->check(numberIn(0.001, 86'400.0))
-        ->default_str(std::to_string(into.count() / 1000));
+    CLI::Option* option = command.add_option_function<double>(name, set, help);
+    takesNumber(option, 0.001, 86'400.0);
+    option->default_str(std::to_string(into.count() / 1000));
 }
 
 int run(const server::ServeOptions& options) {
@@ -31,35 +31,30 @@ int run(const server::ServeOptions& options) {
 void addServe(CLI::App& root, Action& action) {
     CLI::App* command = root.add_subcommand("serve", "Answers HTTP requests until SIGTERM or ^C");
     const auto options = std::make_shared<server::ServeOptions>();
+    const auto add = [&](const std::string& name, auto& value, const std::string& help, double min,
+                         double max) {
+        takesNumber(command->add_option(name, value, help), min, max);
+    };
     command->add_option("--host", options->listen.host, "address to listen on")
+        ->type_name("ADDRESS")
         ->capture_default_str();
-    command->add_option("--port", options->listen.port, "port to listen on; 0: any free one")
-        ->capture_default_str()
-        ->check(CLI::Range(0, 65'535));
-    command->add_option("--scenes", options->scenesDir, "folder of scenes to serve; default none");
-    command->add_option("--workers", options->workers, "pictures drawn at once")
-        ->capture_default_str()
-        ->check(CLI::Range(1, 64));
-    command
-        ->add_option("--queue", options->queue.waiting,
-                     "requests that may wait for a worker; 0: four a worker, at least 16")
-        ->capture_default_str()
-        ->check(CLI::Range(0, 10'000));
+    add("--port", options->listen.port, "port to listen on; 0: any free one", 0, 65'535);
+    command->add_option("--scenes", options->scenesDir, "folder of scenes to serve; default none")
+        ->type_name("DIR");
+    add("--workers", options->workers, "pictures drawn at once", 1, 64);
+    add("--queue", options->queue.waiting,
+        "requests that may wait for a worker; 0: four a worker, at least 16", 0, 10'000);
     addSeconds(*command, "--wait", options->queue.wait, "longest wait for a worker, s");
     addSeconds(*command, "--deadline", options->queue.deadline, "longest time for a request, s");
-    command->add_option("--max-body", options->maxBodyBytes, "largest request body, bytes")
-        ->capture_default_str()
-        ->check(CLI::Range(std::size_t{1}, std::size_t{1} << 30U));
-    command->add_option("--threads", options->listen.threads, "requests handled at once")
-        ->capture_default_str()
-        ->check(CLI::Range(1, 1024));
-    command->add_option("--max-connections", options->listen.maxConnections, "clients at once")
-        ->capture_default_str()
-        ->check(CLI::Range(1, 100'000));
+    add("--max-body", options->maxBodyBytes, "largest request body, bytes", 1, 1 << 30);
+    add("--threads", options->listen.threads, "requests handled at once", 1, 1024);
+    add("--max-connections", options->listen.maxConnections, "clients at once", 1, 100'000);
     addSeconds(*command, "--keep-alive", options->listen.keepAlive,
                "how long a connection may be idle, s");
-    command->add_option("--cors", options->corsOrigin,
-                        "origin whose pages may call the service, or *; default none");
+    command
+        ->add_option("--cors", options->corsOrigin,
+                     "origin whose pages may call the service, or *; default none")
+        ->type_name("ORIGIN");
     command->callback(
         [&action, options] { action = [options](Report&) { return run(*options); }; });
 }

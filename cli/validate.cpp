@@ -35,9 +35,12 @@ void addValidate(CLI::App& root, Action& action) {
         root.add_subcommand("validate", "Reads a scene and says what is wrong with it");
     const auto flags = std::make_shared<Flags>();
     command->add_option("SCENE", flags->scene, "an .xml scene, a mesh file, or - for stdin")
+        ->type_name("")
         ->required();
-    command->add_option("--assets", flags->assets,
-                        "folder of the files that the scene names; default the scene's own");
+    command
+        ->add_option("--assets", flags->assets,
+                     "folder of the files that the scene names; default the scene's own")
+        ->type_name("DIR");
     command->add_flag("--strict", flags->strict, "takes warnings for errors");
     command->callback(
         [&action, flags] { action = [flags](Report& report) { return run(*flags, report); }; });

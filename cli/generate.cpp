@@ -121,7 +121,7 @@ void addGenerate(CLI::App& root, Action& action) {
         ->add_option("--uv", *uv,
                      "texture coordinates: a whole picture a face, or one picture "
                      "around the shape, or as the 2017 engine; default face")
-        ->type_name("")
+        ->type_name("LAYOUT")
         ->check(CLI::IsMember({"face", "atlas", "2017"}));
     command->footer(allShapes);
     command->allow_extras();

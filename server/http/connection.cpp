@@ -101,9 +101,13 @@ class Connection::Parser final : public httplib::Server {
     bool serve(int fd, const std::string& remoteAddress, const std::function<bool()>& closing) {
         SocketStream stream(fd);
         stream_ = &stream;
+        // The listener waits for a whole head, so the first is there or came too late; of a second
+        // one behind it a part may still be under way.
+        auto patience = std::chrono::milliseconds(0);
         do {
             std::string text;
-            const auto got = stream.readHead(kMaxHead, Clock::now() + timeouts_.head, text);
+            const auto got = stream.readHead(kMaxHead, Clock::now() + patience, text);
+            patience = kFollowing;
             if (got == SocketStream::HeadResult::closed) return false;
             Head head = checkHead(text);
             if (got == SocketStream::HeadResult::tooLarge)
@@ -116,12 +120,14 @@ class Connection::Parser final : public httplib::Server {
             if (head.request.id.empty()) head.request.id = newRequestId();
             exchange(stream, head, closing);
         } while (keep_ && stream.hasBuffered());
-        if (!keep_) stream.finish(kLingerBytes, Clock::now() + timeouts_.linger);
+        if (!keep_ && (unread_ || stream.hasBuffered()))
+            stream.finish(kLingerBytes, Clock::now() + timeouts_.linger);
         return keep_;
     }
 
   private:
     static constexpr std::size_t kLingerBytes = 64U << 20;
+    static constexpr std::chrono::milliseconds kFollowing{500};
 
     /// The body behind the library's reader; stops at the bound instead of reading on.
     class BodyOf final : public Body {
@@ -169,12 +175,14 @@ class Connection::Parser final : public httplib::Server {
         closing_ = &closing;
         answered_ = false;
         bodyRead_ = false;
+        unread_ = false;
         keep_ = head.keepAlive;
         const auto readUntil = start + timeouts_.body;
         stream.setReadDeadline(readUntil);
         stream.setWriteDeadline(start + timeouts_.body + timeouts_.write);
         if (head.refusal) {
             keep_ = false;
+            unread_ = true;
             // The library is shown a plain request in place of the one it must not see.
             stream.prepend(head.isHead ? "HEAD / HTTP/1.1\r\n\r\n" : "GET / HTTP/1.1\r\n\r\n");
         } else {
@@ -185,6 +193,7 @@ class Connection::Parser final : public httplib::Server {
             request.path = "/";  // routing is not the library's
             stream.setWriteDeadline(Clock::now() + timeouts_.body + timeouts_.write);
         });
+        unread_ = unread_ || (head.hasBody() && !bodyRead_);
         handler_.finished(head.request, last_,
                           std::chrono::duration<double, std::milli>(Clock::now() - start).count(),
                           sent);
@@ -229,7 +238,7 @@ class Connection::Parser final : public httplib::Server {
     const Head* head_ = nullptr;
     const std::function<bool()>* closing_ = nullptr;
     Response last_;
-    bool answered_ = false, bodyRead_ = false, keep_ = true;
+    bool answered_ = false, bodyRead_ = false, unread_ = false, keep_ = true;
 };
 
 Connection::Connection(Handler& handler, Timeouts timeouts)

@@ -24,8 +24,8 @@ class Connection {
     Connection(Handler& handler, Timeouts timeouts);
     ~Connection();
 
-    /// Serves requests of the socket until none is waiting. True: the connection may be kept
-    /// for the next one. `closing` is asked after each answer.
+    /// Serves the requests that have arrived on the socket, whole or too late. True: the connection
+    /// may be kept for the next one. `closing` is asked after each answer.
     bool serve(int fd, const std::string& remoteAddress, const std::function<bool()>& closing);
 
   private:

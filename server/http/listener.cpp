@@ -13,7 +13,10 @@
 #include <cerrno>
 #include <memory>
 #include <stdexcept>
+#include <string_view>
 #include <system_error>
+
+#include "server/http/head.h"
 
 namespace farol::server::http {
 namespace {
@@ -118,7 +121,7 @@ void Listener::stop() {
     ready_.notify_all();
     for (std::thread& thread : threads_) thread.join();
     threads_.clear();
-    dropIdle(true);
+    dropAll();
 }
 
 void Listener::acceptLoop() {
@@ -131,9 +134,9 @@ void Listener::acceptLoop() {
             if (fd == listenFd_)
                 acceptAll();
             else if (fd != wakeFd_)
-                activate(fd);
+                look(fd, (events[static_cast<std::size_t>(i)].events & ~EPOLLIN) != 0);
         }
-        dropIdle(false);
+        sweep();
     }
     // From here on clients are refused by the kernel and may try elsewhere.
     ::close(listenFd_);
@@ -158,7 +161,7 @@ void Listener::acceptAll() {
         {
             const std::lock_guard lock(mutex_);
             full = clients_.size() >= static_cast<std::size_t>(options_.maxConnections);
-            if (!full) clients_[fd] = {addressText(address), Clock::now(), false};
+            if (!full) clients_[fd] = {addressText(address), Clock::now()};
         }
         if (full) {
             static constexpr std::string_view kFull =
@@ -175,11 +178,47 @@ void Listener::acceptAll() {
     }
 }
 
+// A thread is worth spending on a connection once a whole head is there (or too much of one, or
+// the end). Until then the kernel is told to wake us for more bytes than there are now.
+void Listener::look(int fd, bool ended) {
+    std::array<char, kMaxHead> bytes;
+    const ssize_t got = ::recv(fd, bytes.data(), bytes.size(), MSG_PEEK | MSG_DONTWAIT);
+    const std::string_view text(bytes.data(), got > 0 ? static_cast<std::size_t>(got) : 0);
+    const bool partial = !ended && got > 0 && text.size() < bytes.size() &&
+                         text.find("\r\n\r\n") == std::string_view::npos;
+    bool wait = partial || (!ended && got < 0 && errno == EAGAIN);
+    {
+        const std::lock_guard lock(mutex_);
+        const auto found = clients_.find(fd);
+        if (found == clients_.end() || found->second.active) return;
+        Client& client = found->second;
+        const int low = static_cast<int>(got) + 1;
+        if (partial && client.headSince == Clock::time_point{}) client.headSince = Clock::now();
+        if (partial && ::setsockopt(fd, SOL_SOCKET, SO_RCVLOWAT, &low, sizeof low) != 0)
+            wait = false;
+    }
+    if (wait)
+        watch(fd);
+    else
+        activate(fd);
+}
+
+void Listener::watch(int fd) {
+    epoll_event event{};
+    event.events = EPOLLIN | EPOLLRDHUP | EPOLLONESHOT;
+    event.data.fd = fd;
+    ::epoll_ctl(epollFd_, EPOLL_CTL_MOD, fd, &event);
+}
+
 void Listener::activate(int fd) {
     {
         const std::lock_guard lock(mutex_);
         const auto found = clients_.find(fd);
         if (found == clients_.end() || found->second.active) return;
+        if (found->second.headSince != Clock::time_point{}) {
+            const int one = 1;
+            ::setsockopt(fd, SOL_SOCKET, SO_RCVLOWAT, &one, sizeof one);
+        }
         found->second.active = true;
         queue_.push_back(fd);
     }
@@ -190,11 +229,9 @@ void Listener::park(int fd) {
     const std::lock_guard lock(mutex_);
     Client& client = clients_[fd];
     client.active = false;
+    client.headSince = {};
     client.idleSince = Clock::now();
-    epoll_event event{};
-    event.events = EPOLLIN | EPOLLRDHUP | EPOLLONESHOT;
-    event.data.fd = fd;
-    ::epoll_ctl(epollFd_, EPOLL_CTL_MOD, fd, &event);
+    watch(fd);
 }
 
 void Listener::drop(int fd) {
@@ -205,18 +242,31 @@ void Listener::drop(int fd) {
     ::close(fd);
 }
 
-void Listener::dropIdle(bool all) {
-    const std::lock_guard lock(mutex_);
-    const auto now = Clock::now();
-    for (auto it = clients_.begin(); it != clients_.end();) {
-        const bool old = now - it->second.idleSince > options_.keepAlive;
-        if (all || (!it->second.active && old)) {
-            ::close(it->first);
-            it = clients_.erase(it);
-        } else {
-            ++it;
+void Listener::sweep() {
+    std::vector<int> late;
+    {
+        const std::lock_guard lock(mutex_);
+        const auto now = Clock::now();
+        for (auto it = clients_.begin(); it != clients_.end();) {
+            const Client& client = it->second;
+            const bool begun = client.headSince != Clock::time_point{};
+            if (!client.active && begun && now - client.headSince > options_.timeouts.head)
+                late.push_back(it->first);
+            if (!client.active && !begun && now - client.idleSince > options_.keepAlive) {
+                ::close(it->first);
+                it = clients_.erase(it);
+            } else {
+                ++it;
+            }
         }
     }
+    for (const int fd : late) activate(fd);  // to be told that it was too slow
+}
+
+void Listener::dropAll() {
+    const std::lock_guard lock(mutex_);
+    for (const auto& [fd, client] : clients_) ::close(fd);
+    clients_.clear();
 }
 
 void Listener::serveLoop() {

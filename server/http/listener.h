@@ -25,8 +25,8 @@ struct ListenOptions {
 };
 
 /// Accepts connections and gives each to a thread while it has a request to serve. A connection
-/// that waits for its next request costs a descriptor and no thread, so idle clients starve
-/// nobody. All queues are bounded by maxConnections.
+/// that waits for its next request, or has sent only part of its head, costs a descriptor and no
+/// thread, so idle and slow clients starve nobody. All queues are bounded by maxConnections.
 class Listener {
   public:
     /// Binds and listens. Throws std::runtime_error that says why it cannot.
@@ -45,16 +45,20 @@ class Listener {
     struct Client {
         std::string remoteAddress;
         Clock::time_point idleSince;
-        bool active = false;  ///< in the queue or with a thread
+        Clock::time_point headSince{};  ///< when a head began that is not complete yet
+        bool active = false;            ///< in the queue or with a thread
     };
 
     void acceptLoop();
     void acceptAll();
     void serveLoop();
+    void look(int fd, bool ended);
+    void watch(int fd);
     void activate(int fd);
     void park(int fd);
     void drop(int fd);
-    void dropIdle(bool all);
+    void sweep();
+    void dropAll();
 
     ListenOptions options_;
     Handler& handler_;

@@ -401,6 +401,7 @@ TEST_CASE("each request is one line of JSON in the log") {
     FakeServer server;
     get(server.port(), "/v1/scenes/nope?x=\"quoted\"", {{"X-Request-Id", "logged"}});
     get(server.port(), "/livez");
+    server.stop();  // a line is written once the answer is out
     bool found = false;
     for (const std::string& line : server.log()) {
         const auto entry = nlohmann::json::parse(line, nullptr, false);

@@ -56,6 +56,8 @@ bool RawClient::send(const std::string& bytes) {
     return true;
 }
 
+void RawClient::endSending() { ::shutdown(fd_, SHUT_WR); }
+
 bool RawClient::fill() {
     pollfd entry{fd_, POLLIN, 0};
     if (::poll(&entry, 1, kPatienceMs) != 1) return false;

@@ -30,6 +30,7 @@ class RawClient {
     RawClient& operator=(const RawClient&) = delete;
 
     bool send(const std::string& bytes);
+    void endSending();
     /// Reads one answer; `withBody` false for HEAD. Status 0 when there is none in ten seconds.
     Answer read(bool withBody = true);
     /// True if the server ended the connection within ten seconds.

@@ -232,12 +232,45 @@ TEST_CASE("idle and slow connections starve nobody") {
         }
     }
     CHECK(get(server.port(), "/livez").status == 200);
-    // A head that never ends costs its thread no longer than its deadline.
+    // Heads that never end, more of them than there are threads, hold no thread either.
+    std::vector<std::unique_ptr<RawClient>> trickling;
+    for (int i = 0; i < 20; ++i) {
+        trickling.push_back(std::make_unique<RawClient>(server.port()));
+        trickling.back()->send("GET /livez HTTP/1.1\r\nX: ");
+    }
+    CHECK(get(server.port(), "/livez").status == 200);
+    trickling.front()->send("y\r\n\r\n");
+    const Answer patient = trickling.front()->read();
+    CHECK((patient.status == 200 || patient.status == 408));  // by when its bytes arrived
+    for (std::size_t i = 1; i < trickling.size(); ++i) CHECK(trickling[i]->read().status == 408);
     RawClient slow(server.port());
     slow.send("GET /livez HTT");
     CHECK(slow.read().status == 408);
     CHECK(slow.closedByServer());
     CHECK(get(server.port(), "/livez").status == 200);
+}
+
+TEST_CASE("a head may come byte by byte, and its end before the answer") {
+    FakeServer server;
+    RawClient slow(server.port());
+    for (const char c : std::string("GET /livez HTTP/1.1\r\nHost: x\r\n\r\n"))
+        slow.send(std::string(1, c));
+    CHECK(slow.read().status == 200);
+    slow.send("GET /livez HTTP/1.1\r\n\r\nGET /vers");
+    CHECK(slow.read().status == 200);
+    slow.send("ion HTTP/1.1\r\n\r\n");
+    CHECK(slow.read().status == 200);
+    slow.send("GET /livez HTTP/1.1\r\n\r\n");
+    CHECK(slow.read().status == 200);
+    {
+        RawClient gone(server.port());
+        gone.send("GET /livez HTTP/1.1\r\nHo");
+    }
+    RawClient half(server.port());
+    half.send("GET /livez HTTP/1.1\r\n\r\n");
+    half.endSending();
+    CHECK(half.read().status == 200);
+    CHECK(half.closedByServer());
 }
 
 TEST_CASE("connections beyond the bound are told so") {

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "generator/call.h"
+#include "generator/fineness.h"
 
 /// What a shape's pair of files gives to the registry.
 namespace farol::generator {
@@ -15,6 +16,9 @@ struct Entry {
     std::size_t (*count)(const Call& call, const std::string& fileBytes) = nullptr;
     /// What is wrong with arguments that are each in range but do not go together, or "".
     std::string (*check)(const Call& call) = nullptr;
+    /// Values of the level arguments, in their order, that keep the fineness.
+    std::vector<double> (*levels)(const Call& call, const std::string& fileBytes,
+                                  const Fineness& fineness) = nullptr;
 };
 
 /// The entry that `shape` belongs to. Precondition: it is one of shapes().

@@ -63,6 +63,23 @@ Prepared prepare(const std::vector<std::string>& words, const scene::Assets& ass
     return out;
 }
 
+/// The words of a shape, its file where it was found.
+std::vector<std::string> wordsOf(const scene::ModelSource& source) {
+    std::vector<std::string> words = source.words;
+    if (!source.path.empty() && words.size() > 1) words[1] = source.path;
+    return words;
+}
+
+/// Where the shape's argument `index` stands among its words.
+std::size_t placeOf(const Shape& shape, std::size_t index) {
+    return 1 + (shape.takesFile ? 1 : 0) + index;
+}
+
+bool isOpenAt(const Shape& shape, const std::vector<std::string>& words, std::size_t index) {
+    const std::size_t at = placeOf(shape, index);
+    return shape.arguments[index].level && (at >= words.size() || words[at] == "auto");
+}
+
 }  // namespace
 
 std::span<const Shape> shapes() { return table().shapes; }
@@ -93,17 +110,40 @@ std::size_t countTriangles(const std::vector<std::string>& words, const scene::A
 Mesh load(const scene::Model& model, const scene::Assets& assets, Diagnostics* findings) {
     using Kind = scene::ModelSource::Kind;
     const scene::ModelSource& source = model.source;
-    if (source.kind == Kind::shape) {
-        std::vector<std::string> words = source.words;
-        if (!source.path.empty() && words.size() > 1) words[1] = source.path;
-        return generate(words, assets, model.uv);
-    }
+    if (source.kind == Kind::shape) return generate(wordsOf(source), assets, model.uv);
     const std::optional<std::string> bytes =
         source.kind == Kind::file ? assets.read(source.path) : std::nullopt;
     if (!bytes)
         throw Error("asset.missing", "the mesh \"" + model.file + "\" cannot be had", model.where);
     Diagnostics unheard;
     return io::decodeMesh(*bytes, source.path, findings != nullptr ? *findings : unheard);
+}
+
+bool isOpen(const scene::Model& model) {
+    if (model.source.kind != scene::ModelSource::Kind::shape) return false;
+    const Shape* shape = findShape(model.source.words.at(0));
+    if (shape == nullptr || entryOf(*shape).levels == nullptr) return false;
+    for (std::size_t i = 0; i < shape->arguments.size(); ++i)
+        if (isOpenAt(*shape, model.source.words, i)) return true;
+    return false;
+}
+
+std::vector<std::string> refine(const scene::Model& model, const scene::Assets& assets,
+                                const Fineness& fineness) {
+    std::vector<std::string> words = wordsOf(model.source);
+    const Call call = parseCall(words);
+    const Shape& shape = *call.shape;
+    const std::string bytes = shape.takesFile ? readSource(call.file, assets) : std::string();
+    const std::vector<double> levels = entryOf(shape).levels(call, bytes, fineness);
+    std::size_t level = 0;
+    for (std::size_t i = 0; i < shape.arguments.size(); ++i) {
+        if (!shape.arguments[i].level) continue;
+        const double chosen = std::max(shape.arguments[i].min, levels.at(level++));
+        if (!isOpenAt(shape, words, i)) continue;
+        words.resize(std::max(words.size(), placeOf(shape, i) + 1));
+        words[placeOf(shape, i)] = std::to_string(static_cast<int>(chosen));
+    }
+    return words;
 }
 
 }  // namespace farol::generator

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "generator/fineness.h"
 #include "generator/mesh.h"
 #include "scene/assets.h"
 #include "scene/scene.h"
@@ -58,6 +59,15 @@ void resolve(scene::Scene& scene, const scene::Assets& assets, Diagnostics& diag
 /// The mesh of a resolved model. Throws as generate and io::decodeMesh do; what was repaired in
 /// a mesh file is added to `findings` where it is given.
 Mesh load(const scene::Model& model, const scene::Assets& assets, Diagnostics* findings = nullptr);
+
+/// True when a model's shape leaves divisions open (left out, or "auto"): its mesh is made as fine
+/// as the picture needs. What is written is honoured to the letter.
+bool isOpen(const scene::Model& model);
+
+/// The words of an open model with its divisions chosen: the coarsest of a small ladder that keep
+/// `fineness`. Throws as load does.
+std::vector<std::string> refine(const scene::Model& model, const scene::Assets& assets,
+                                const Fineness& fineness);
 
 /// Upper bound on triangles of one mesh, counted before memory is taken for it.
 inline constexpr std::size_t kMaxTriangles = 5'000'000;

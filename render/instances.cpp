@@ -1,5 +1,6 @@
 #include "render/instances.h"
 
+#include <set>
 #include <variant>
 
 #include "scene/animation.h"
@@ -60,7 +61,11 @@ class Collector {
                 throw Error("limit.instances",
                             "the scene has more than " + std::to_string(kMaxInstances) + " models",
                             model.where);
-            Instance instance{&model, meshes_.get(model, assets_), worldFromGroup, lightSet};
+            Instance instance{&model, meshes_.get(model, assets_), worldFromGroup,
+                              generator::isOpen(model), lightSet};
+            if (!instance.mesh->findings.empty() && told_.insert(instance.mesh->id).second)
+                list_.findings.insert(list_.findings.end(), instance.mesh->findings.begin(),
+                                      instance.mesh->findings.end());
             const Box& box = instance.mesh->bounds;
             if (!box.empty())
                 for (int corner = 0; corner < 8; ++corner)
@@ -98,6 +103,7 @@ class Collector {
     const scene::Assets& assets_;
     MeshLibrary& meshes_;
     InstanceList list_;
+    std::set<std::uint64_t> told_;  ///< meshes whose findings are listed
 };
 
 }  // namespace

@@ -13,6 +13,7 @@ struct Instance {
     const scene::Model* model;
     std::shared_ptr<const MeshData> mesh;
     glm::dmat4 worldFromObject;
+    bool open;     ///< its divisions are the renderer's to choose
     int lightSet;  ///< index into InstanceList::lightSets
 };
 
@@ -32,7 +33,8 @@ struct InstanceList {
     std::vector<PlacedLight> lights;
     std::vector<std::vector<int>> lightSets;  ///< indices into lights; set 0: the scene's own
     std::vector<PlacedCurve> curves;
-    Box bounds;  ///< world space
+    Diagnostics findings;  ///< of the mesh files, each once
+    Box bounds;            ///< world space
 };
 
 /// Bounds on what one frame may hold.

@@ -1,6 +1,8 @@
 #include "render/mesh_library.h"
 
 #include <atomic>
+#include <cmath>
+#include <utility>
 
 namespace farol::render {
 namespace {
@@ -21,21 +23,24 @@ std::string keyOf(const scene::Model& model, const scene::Assets& assets) {
 
 }  // namespace
 
-std::shared_ptr<const MeshData> MeshLibrary::get(const scene::Model& model,
-                                                 const scene::Assets& assets) {
-    const std::string key = keyOf(model, assets);
-    if (const auto found = byKey_.find(key); found != byKey_.end()) {
-        entries_.splice(entries_.begin(), entries_, found->second);
-        return found->second->data;
-    }
+std::shared_ptr<const MeshData> MeshLibrary::find(const std::string& key) {
+    const auto found = byKey_.find(key);
+    if (found == byKey_.end()) return nullptr;
+    entries_.splice(entries_.begin(), entries_, found->second);
+    return found->second->data;
+}
+
+std::shared_ptr<const MeshData> MeshLibrary::keep(const std::string& key, generator::Mesh mesh,
+                                                  Diagnostics findings) {
     auto data = std::make_shared<MeshData>();
     data->id = nextId();
-    data->mesh = generator::load(model, assets);
+    data->mesh = std::move(mesh);
+    data->findings = std::move(findings);
     for (const glm::vec3& position : data->mesh.positions) data->bounds.add(glm::dvec3(position));
-    const generator::Mesh& mesh = data->mesh;
-    const std::size_t bytes =
-        mesh.positions.size() * sizeof(glm::vec3) + mesh.normals.size() * sizeof(glm::vec3) +
-        mesh.uvs.size() * sizeof(glm::vec2) + mesh.indices.size() * sizeof(std::uint32_t);
+    const std::size_t bytes = data->mesh.positions.size() * sizeof(glm::vec3) +
+                              data->mesh.normals.size() * sizeof(glm::vec3) +
+                              data->mesh.uvs.size() * sizeof(glm::vec2) +
+                              data->mesh.indices.size() * sizeof(std::uint32_t);
     entries_.push_front({key, data, bytes});
     byKey_[key] = entries_.begin();
     bytes_ += bytes;
@@ -45,6 +50,27 @@ std::shared_ptr<const MeshData> MeshLibrary::get(const scene::Model& model,
         entries_.pop_back();
     }
     return data;
+}
+
+std::shared_ptr<const MeshData> MeshLibrary::get(const scene::Model& model,
+                                                 const scene::Assets& assets) {
+    const std::string key = keyOf(model, assets);
+    if (auto known = find(key)) return known;
+    Diagnostics findings;
+    generator::Mesh mesh = generator::load(model, assets, &findings);
+    return keep(key, std::move(mesh), std::move(findings));
+}
+
+std::shared_ptr<const MeshData> MeshLibrary::get(const scene::Model& model,
+                                                 const scene::Assets& assets,
+                                                 const generator::Fineness& fineness) {
+    // Both numbers stand on ladders, so the text is exact enough for a key.
+    const std::string key = keyOf(model, assets) + "\n" +
+                            std::to_string(std::log2(fineness.error)) + ' ' +
+                            std::to_string(fineness.fullTurn);
+    if (auto known = find(key)) return known;
+    return keep(key,
+                generator::generate(generator::refine(model, assets, fineness), assets, model.uv));
 }
 
 }  // namespace farol::render

@@ -27,7 +27,8 @@ struct Box {
 struct MeshData {
     std::uint64_t id = 0;
     generator::Mesh mesh;
-    Box bounds;  ///< object space
+    Box bounds;            ///< object space
+    Diagnostics findings;  ///< what was repaired in its file
 };
 
 /// Meshes by source, kept within a bound of bytes, least recently used first out.
@@ -36,8 +37,14 @@ class MeshLibrary {
     explicit MeshLibrary(std::size_t maxBytes) : maxBytes_(maxBytes) {}
     /// The mesh of a resolved model. Throws as generator::load does.
     std::shared_ptr<const MeshData> get(const scene::Model& model, const scene::Assets& assets);
+    /// The mesh of an open model (generator::isOpen), as fine as asked.
+    std::shared_ptr<const MeshData> get(const scene::Model& model, const scene::Assets& assets,
+                                        const generator::Fineness& fineness);
 
   private:
+    std::shared_ptr<const MeshData> find(const std::string& key);
+    std::shared_ptr<const MeshData> keep(const std::string& key, generator::Mesh mesh,
+                                         Diagnostics findings = {});
     struct Entry {
         std::string key;
         std::shared_ptr<const MeshData> data;

@@ -6,6 +6,7 @@
 #include "render/background.h"
 #include "render/camera.h"
 #include "render/instances.h"
+#include "render/tessellate.h"
 #include "scene/animation.h"
 
 namespace farol::render {
@@ -58,8 +59,10 @@ class Planner {
         plan_.camera = chooseCamera(scene_, options_, list.bounds, aspect_);
         view_ = {viewRotation(plan_.camera), plan_.camera.eye};
         plan_.worldFromView = glm::mat3(glm::transpose(view_.rotation));
+        sight_ = {plan_.camera, plan_.width, plan_.height, options_.errorPx, plan_.shading};
         clip_ = clipFromView(plan_.camera, aspect_, glm::dvec2(0.0));
         addInstances(list, view_, {});
+        plan_.findings = list.findings;
         if (scene_.entity) addEntity(*scene_.entity);
         addLines(list);
         addBackground();
@@ -177,7 +180,10 @@ class Planner {
         }
         const scene::Model& model = *instance.model;
         DrawItem item;
-        item.mesh = instance.mesh;
+        item.mesh = instance.open
+                        ? meshes_.get(*instance.model, assets_,
+                                      fineness(instance.mesh->bounds, viewFromObject, sight_))
+                        : instance.mesh;
         item.viewFromObject = glm::mat4(viewFromObject);
         // Cofactors: the inverse transpose without its division, so flattened objects work too.
         const glm::dmat3 cofactor(glm::cross(linear[1], linear[2]),
@@ -316,6 +322,7 @@ class Planner {
     FramePlan plan_;
     double aspect_ = 1.0;
     View view_;
+    Sight sight_;
     glm::dmat4 clip_{1.0};
 };
 

@@ -71,6 +71,7 @@ struct FramePlan {
     std::vector<LineVertex> overlays;  ///< pairs, drawn over everything
     glm::vec4 background{0.0F, 0.0F, 0.0F, 1.0F};
     int backgroundTexture = -1, skyboxTexture = -1;  ///< indices into textures
+    Diagnostics findings;                            ///< of the mesh files
     Stats stats;
 };
 

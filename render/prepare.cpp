@@ -90,6 +90,8 @@ void takeEntity(Prepared& prepared, const std::string& file) {
     for (Diagnostic& one : result.diagnostics) prepared.diagnostics.push_back(std::move(one));
 }
 
+}  // namespace
+
 void refuseErrors(Diagnostics& diagnostics, bool strict) {
     if (strict)
         for (Diagnostic& one : diagnostics)
@@ -98,8 +100,6 @@ void refuseErrors(Diagnostics& diagnostics, bool strict) {
                     [](const Diagnostic& one) { return one.severity == Severity::error; }))
         throw Error(diagnostics);
 }
-
-}  // namespace
 
 Prepared prepare(const Job& job) {
     Prepared prepared;

@@ -18,4 +18,7 @@ struct Prepared {
 /// names. Throws Error with all findings when one is an error, or in strict a warning.
 Prepared prepare(const Job& job);
 
+/// Throws Error with all of `diagnostics` when one is an error; in strict, warnings are.
+void refuseErrors(Diagnostics& diagnostics, bool strict);
+
 }  // namespace farol::render

@@ -77,6 +77,12 @@ std::string describe(const FramePlan& frame, double timeS) {
     return text.data();
 }
 
+/// Adds what was repaired in mesh files; in strict that is an error.
+void takeFindings(Diagnostics& diagnostics, const Diagnostics& findings, bool strict) {
+    diagnostics.insert(diagnostics.end(), findings.begin(), findings.end());
+    refuseErrors(diagnostics, strict);
+}
+
 }  // namespace
 
 struct Renderer::State {
@@ -99,6 +105,7 @@ Picture Renderer::draw(const Job& job, Image& image) {
 
     FramePlan frame = plan(prepared.scene, job.options, *prepared.assets, state_->meshes);
     picture.camera = frame.camera;
+    takeFindings(picture.diagnostics, frame.findings, job.strict);
     picture.times.geometryMs = watch.lap();
 
     gl::Painter::Timings timings;

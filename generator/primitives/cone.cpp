@@ -18,6 +18,13 @@ Entry coneEntry() {
             },
             [](const Call& call, const std::string&) {
                 return frustumTriangles(call.length(0), 0, call.count(2), call.count(3));
+            },
+            nullptr,
+            [](const Call& call, const std::string&, const Fineness& fineness) {
+                // Straight along its side: the height needs no divisions for its shape.
+                return std::vector<double>{
+                    circleDivisions(call.length(0), fineness.error, fineness),
+                    call.shape->arguments[3].fallback};
             }};
 }
 

@@ -1,5 +1,7 @@
 #include "generator/primitives/ellipsoid.h"
 
+#include <algorithm>
+
 #include "generator/primitives/sphere.h"
 
 namespace farol::generator::primitives {
@@ -19,6 +21,14 @@ Entry ellipsoidEntry() {
             },
             [](const Call& call, const std::string&) {
                 return 2 * call.count(3) * (call.count(4) - 1);
+            },
+            nullptr,
+            [](const Call& call, const std::string&, const Fineness& fineness) {
+                const double rx = call.length(0), ry = call.length(1), rz = call.length(2);
+                const double error = fineness.error / 2;
+                return std::vector<double>{
+                    circleDivisions(std::max(rx, rz), error, fineness),
+                    circleDivisions(std::max({rx, ry, rz}), error, fineness) / 2};
             }};
 }
 

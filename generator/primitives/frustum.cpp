@@ -1,5 +1,7 @@
 #include "generator/primitives/frustum.h"
 
+#include <algorithm>
+
 #include "generator/builder.h"
 
 namespace farol::generator::primitives {
@@ -126,6 +128,11 @@ Entry frustumEntry() {
                 if (radius > 0 && radius < kMinLength)
                     return "the arguments BOTTOM and TOP of frustum must be 0 or at least 1e-06";
             return "";
+        },
+        [](const Call& call, const std::string&, const Fineness& fineness) {
+            const double radius = std::max(call.length(0), call.length(1));
+            return std::vector<double>{circleDivisions(radius, fineness.error, fineness),
+                                       call.shape->arguments[4].fallback};
         }};
 }
 

@@ -1,5 +1,8 @@
 #include "generator/primitives/patch.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "generator/bezier.h"
 #include "generator/builder.h"
 
@@ -19,6 +22,32 @@ std::size_t collapsedEdges(const BezierPatch& p) {
          {std::array<std::size_t, 4>{0, 1, 2, 3}, {12, 13, 14, 15}, {0, 4, 8, 12}, {3, 7, 11, 15}})
         count += p[a] == p[b] && p[b] == p[c] && p[c] == p[d] ? 1 : 0;
     return count;
+}
+
+/// Divisions a side that keep every patch of the file within the error: one number for all, so
+/// that neighbours do not crack. Filip, Magedson and Markot, "Surface algorithms using bounds on
+/// derivatives", 1986: err <= (Muu/nu^2 + 2 Muv/(nu nv) + Mvv/nv^2) / 8.
+double patchDivisions(const io::PatchFile& file, const Fineness& fineness) {
+    double worst = 0.0;
+    for (std::size_t k = 0; k < file.patches.size(); ++k) {
+        const BezierPatch p = controlOf(file, k);
+        double uu = 0.0, vv = 0.0, uv = 0.0;
+        const auto at = [&](std::size_t row, std::size_t column) { return p[4 * row + column]; };
+        for (std::size_t i = 0; i < 4; ++i)
+            for (std::size_t j = 0; j < 2; ++j) {
+                uu = std::max(uu, glm::length(at(i, j) - 2.0 * at(i, j + 1) + at(i, j + 2)));
+                vv = std::max(vv, glm::length(at(j, i) - 2.0 * at(j + 1, i) + at(j + 2, i)));
+            }
+        for (std::size_t i = 0; i < 3; ++i)
+            for (std::size_t j = 0; j < 3; ++j)
+                uv = std::max(
+                    uv, glm::length(at(i + 1, j + 1) - at(i + 1, j) - at(i, j + 1) + at(i, j)));
+        worst = std::max(worst, 6.0 * uu + 6.0 * vv + 2.0 * 9.0 * uv);
+    }
+    if (!(worst > 0.0)) return 1.0;  // all flat
+    // A patch of such models spans a quarter of a turn.
+    const double divisions = std::ceil(std::sqrt(worst / (8.0 * fineness.error)));
+    return ladder(std::clamp(divisions, fineness.fullTurn / 4.0, kMostDivisions / 4.0));
 }
 
 }  // namespace
@@ -70,6 +99,11 @@ Entry patchEntry() {
             },
             [](const Call& call, const std::string& bytes) {
                 return patchTriangles(io::parsePatchFile(bytes, call.file), call.count(0));
+            },
+            nullptr,
+            [](const Call& call, const std::string& bytes, const Fineness& fineness) {
+                return std::vector<double>{
+                    patchDivisions(io::parsePatchFile(bytes, call.file), fineness)};
             }};
 }
 

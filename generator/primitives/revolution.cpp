@@ -135,6 +135,15 @@ Entry revolutionEntry() {
             [](const Call& call, const std::string& bytes) {
                 const std::size_t points = io::decodeProfile(bytes, call.file).size();
                 return 2 * (points - std::min<std::size_t>(points, 1)) * (call.count(0) - 1);
+            },
+            nullptr,
+            [](const Call& call, const std::string& bytes, const Fineness& fineness) {
+                double radius = 0.0;
+                for (const auto& point : io::decodeProfile(bytes, call.file))
+                    radius = std::max(radius, std::abs(double{point.x}));
+                if (!(radius > 0.0)) return std::vector<double>{fineness.fullTurn + 1};
+                // N copies make N - 1 slices.
+                return std::vector<double>{circleDivisions(radius, fineness.error, fineness) + 1};
             }};
 }
 

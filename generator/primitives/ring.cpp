@@ -30,29 +30,33 @@ Mesh ring(double inner, double outer, std::size_t slices) {
 Entry ringEntry() {
     Argument inner = lengthArgument("INNER", "radius of the hole; 0 is a disc");
     inner.min = 0;
-    return {{"ring",
-             "a flat ring in XZ about the origin, with faces up and down",
-             {inner, lengthArgument("OUTER", "outer radius, over INNER"),
-              levelArgument("SLICES", 3, 2 * kDefaultSlices, "divisions about Y")},
-             2,
-             false},
-            [](const Call& call, const std::string&, scene::UvLayout) {
-                return ring(call.length(0), call.length(1), call.count(2));
-            },
-            [](const Call& call, const std::string&) {
-                return call.count(2) * (call.length(0) > 0 ? 4U : 2U);
-            },
-            [](const Call& call) -> std::string {
-                // A narrower ring folds in floats.
-                constexpr double kNarrowest = 1e-4;
-                const double hole = call.length(0), outer = call.length(1);
-                if (hole >= outer) return "the argument INNER of ring must be less than OUTER";
-                if (outer - hole < kNarrowest * outer)
-                    return "the arguments INNER and OUTER of ring must differ by 0.0001 of OUTER";
-                if (hole > 0 && hole < kMinLength)
-                    return "the argument INNER of ring must be 0 or at least 1e-06";
-                return "";
-            }};
+    return {
+        {"ring",
+         "a flat ring in XZ about the origin, with faces up and down",
+         {inner, lengthArgument("OUTER", "outer radius, over INNER"),
+          levelArgument("SLICES", 3, 2 * kDefaultSlices, "divisions about Y")},
+         2,
+         false},
+        [](const Call& call, const std::string&, scene::UvLayout) {
+            return ring(call.length(0), call.length(1), call.count(2));
+        },
+        [](const Call& call, const std::string&) {
+            return call.count(2) * (call.length(0) > 0 ? 4U : 2U);
+        },
+        [](const Call& call) -> std::string {
+            // A narrower ring folds in floats.
+            constexpr double kNarrowest = 1e-4;
+            const double hole = call.length(0), outer = call.length(1);
+            if (hole >= outer) return "the argument INNER of ring must be less than OUTER";
+            if (outer - hole < kNarrowest * outer)
+                return "the arguments INNER and OUTER of ring must differ by 0.0001 of OUTER";
+            if (hole > 0 && hole < kMinLength)
+                return "the argument INNER of ring must be 0 or at least 1e-06";
+            return "";
+        },
+        [](const Call& call, const std::string&, const Fineness& fineness) {
+            return std::vector<double>{circleDivisions(call.length(1), fineness.error, fineness)};
+        }};
 }
 
 }  // namespace farol::generator::primitives

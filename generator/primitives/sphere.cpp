@@ -52,6 +52,12 @@ Entry sphereEntry() {
             },
             [](const Call& call, const std::string&) {
                 return 2 * call.count(1) * (call.count(2) - 1);
+            },
+            nullptr,
+            [](const Call& call, const std::string&, const Fineness& fineness) {
+                // Half of the error to either direction.
+                const double slices = circleDivisions(call.length(0), fineness.error / 2, fineness);
+                return std::vector<double>{slices, slices / 2};
             }};
 }
 

@@ -49,6 +49,12 @@ Entry torusEntry() {
                 if (tube < kThinnest * ring)
                     return "the argument TUBE of torus must be at least 0.0001 of RING";
                 return "";
+            },
+            [](const Call& call, const std::string&, const Fineness& fineness) {
+                const double ring = call.length(0), tube = call.length(1);
+                return std::vector<double>{
+                    circleDivisions(ring + tube, fineness.error / 2, fineness),
+                    circleDivisions(tube, fineness.error / 2, fineness)};
             }};
 }
 

@@ -1,0 +1,25 @@
+#include "generator/fineness.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace farol::generator {
+
+double circleDivisions(double radius, double error, const Fineness& fineness) {
+    const double half = std::sqrt(std::min(1.0, error / (2.0 * radius)));
+    const double divisions = std::ceil(std::numbers::pi / (2.0 * std::asin(half)));
+    return ladder(std::clamp(divisions, fineness.fullTurn, kMostDivisions));
+}
+
+double ladder(double divisions) {
+    double power = 1.0;
+    while (power < divisions && power < kMostDivisions) {
+        // Between 2^k and 2^(k+1) stands 1.5 * 2^k.
+        if (power >= 2.0 && divisions <= 1.5 * power) return 1.5 * power;
+        power *= 2.0;
+    }
+    return power;
+}
+
+}  // namespace farol::generator

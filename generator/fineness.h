@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstddef>
+
+namespace farol::generator {
+
+/// How fine a mesh is to be whose divisions a scene leaves open.
+struct Fineness {
+    double error;     ///< most distance between mesh and surface, object space, > 0
+    double fullTurn;  ///< least divisions of a full turn, whatever the error: for shading, >= 8
+};
+
+/// Most divisions that are chosen; finer wishes are capped.
+inline constexpr double kMostDivisions = 1024;
+
+/// Divisions of a circle of that radius whose sagitta r(1 - cos(pi/n)) is at most `error`,
+/// computed without cancellation, and at least fineness.fullTurn; rounded up to the ladder.
+double circleDivisions(double radius, double error, const Fineness& fineness);
+
+/// The next of 1 2 3 4 6 8 12 16 24 32 48 ... kMostDivisions: few levels, so that a mesh is found
+/// again while the camera moves. From 8 on they are multiples of 4: bounding boxes stay exact.
+double ladder(double divisions);
+
+}  // namespace farol::generator

@@ -4,18 +4,15 @@ const $ = (id) => document.getElementById(id);
 const clamp = (x, low, high) => Math.min(high, Math.max(low, x));
 const degrees = 180 / Math.PI;
 
-/* ---- the scene that is shown -------------------------------------------------------------- */
-
 // A source draws itself: fetch(options, signal) -> Response.
 const servedSource = (scene) => ({
   key: scene.id,
-  image: (options) => `${scene.links.image}?${new URLSearchParams(options)}`,
-  fetch(options, signal) { return fetch(this.image(options), { signal }); },
+  fetch: (options, signal) =>
+    fetch(`${scene.links.image}?${new URLSearchParams(options)}`, { signal }),
 });
 
 const uploadedSource = (files, main) => ({
   key: null,
-  image: () => null,
   fetch(options, signal) {
     const body = bodyOf(files, main);
     return fetch(`/v1/render?${new URLSearchParams(options)}`, { method: 'POST', body, signal });
@@ -39,13 +36,10 @@ const view = {
   playing: false,
 };
 
-/* ---- frames: one in flight, the newest wanted after it ------------------------------------ */
-
 let sequence = 0, shown = 0;
 let flight = null;             // { controller, moving }
 let pending = null;            // 'moving' | 'full'
-let restTimer = 0;
-let lastUrl = '';
+let restTimer = 0, lastUrl = '';
 
 function options(moving) {
   const box = $('stage').getBoundingClientRect();
@@ -144,21 +138,18 @@ async function showProblem(response, source) {
 }
 
 function sentence(finding) {
-  const place = [];
-  if (finding.line) place.push(`line ${finding.line}`);
-  if (finding.column) place.push(`column ${finding.column}`);
-  const where = place.join(', ');
+  const column = finding.column ? `, column ${finding.column}` : '';
+  const where = finding.line ? `Line ${finding.line}${column}: ` : '';
   const text = finding.message.replace(/[.\s]*$/, '.');
-  const upper = text.charAt(0).toUpperCase() + text.slice(1);
-  return where ? `${where.charAt(0).toUpperCase()}${where.slice(1)}: ${upper}` : upper;
+  return where + text.charAt(0).toUpperCase() + text.slice(1);
 }
 
 function showFindings(findings) {
-  const shownOnes = findings.filter((one) => one.severity !== 'info');
-  const key = JSON.stringify(shownOnes);
+  const notable = findings.filter((one) => one.severity !== 'info');
+  const key = JSON.stringify(notable);
   if ($('findings').dataset.key === key) return;
   $('findings').dataset.key = key;
-  $('findings').replaceChildren(...shownOnes.map((finding) => {
+  $('findings').replaceChildren(...notable.map((finding) => {
     const item = document.createElement('li');
     item.className = finding.severity;
     item.textContent = sentence(finding);
@@ -179,8 +170,6 @@ function markLine({ line }) {
   box.focus();
   box.setSelectionRange(start, start + (lines[line - 1] || '').length);
 }
-
-/* ---- the camera --------------------------------------------------------------------------- */
 
 function orbitOf({ eye, target }) {
   const d = eye.map((x, i) => x - target[i]);
@@ -261,8 +250,6 @@ stage.addEventListener('keydown', (event) => {
 });
 new ResizeObserver(() => draw(true)).observe(stage);
 
-/* ---- time --------------------------------------------------------------------------------- */
-
 let lastTick = 0;
 
 function setTime(seconds) {
@@ -310,8 +297,6 @@ $('reset').addEventListener('click', resetView);
 $('controls').addEventListener('change', (event) => { if (event.target.name) draw(false); });
 $('controls').addEventListener('submit', (event) => event.preventDefault());
 
-/* ---- opening scenes ----------------------------------------------------------------------- */
-
 let keepPicture = false;
 
 function open(source, { title, description, animated, loopSeconds, orbit = null, time = 0 }) {
@@ -330,8 +315,7 @@ function open(source, { title, description, animated, loopSeconds, orbit = null,
   $('description').textContent = description || '';
   $('play').textContent = 'Play';
   $('viewer').hidden = false;
-  const link = $('source');
-  link.hidden = !source.key;
+  $('source').hidden = !source.key;
   draw(false);
 }
 
@@ -354,6 +338,8 @@ async function openServed(id, query) {
   $('source').textContent = 'Source XML';
 }
 
+let uploaded = [], uploadedName = 'scene.xml';  // what belongs to the text in the box
+
 function openFiles(list) {
   const files = [...list];
   const main = files.find((file) => /\.xml$/i.test(file.name));
@@ -367,9 +353,6 @@ function openFiles(list) {
   uploadedName = main.name;
   openText(main, files);
 }
-
-let uploaded = [];
-let uploadedName = 'scene.xml';
 
 async function openText(main, files) {
   const source = uploadedSource(files, main);
@@ -397,8 +380,6 @@ addEventListener('drop', (event) => {
   if (location.hash !== '#/try') { history.pushState(null, '', '#/try'); show(); }
   openFiles(files);
 });
-
-/* ---- gallery ------------------------------------------------------------------------------ */
 
 let scenes = null;
 
@@ -474,8 +455,6 @@ async function openGallery() {
     $('gallery-note').textContent = `The scenes cannot be listed: ${fault.message}.`;
   }
 }
-
-/* ---- deep links ---------------------------------------------------------------------------- */
 
 let linkTimer = 0;
 

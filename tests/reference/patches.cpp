@@ -134,8 +134,8 @@ bool meets(const Ray& ray, const Bounds& box) {
 /// the ray is the origin.
 class Search {
   public:
-    Search(const Ray& ray, const Cell& cell, double cellSize, int face, Nearest& nearest)
-        : ray_(ray), cell_(cell), cellSize_(cellSize), face_(face), nearest_(nearest) {
+    Search(const Ray& ray, const Cell& cell, double cellSize, int patch, Nearest& nearest)
+        : ray_(ray), cell_(cell), cellSize_(cellSize), patch_(patch), nearest_(nearest) {
         const glm::dvec3 d = glm::normalize(ray.direction), a = glm::abs(d);
         const glm::dvec3 other = a.x <= a.y && a.x <= a.z ? glm::dvec3(1, 0, 0)
                                  : a.y <= a.z             ? glm::dvec3(0, 1, 0)
@@ -195,13 +195,14 @@ class Search {
         const Local<glm::dvec3> here = evaluate(cell_.net, at);
         const double t = glm::dot(here.value - ray_.origin, ray_.direction) /
                          glm::dot(ray_.direction, ray_.direction);
-        nearest_.offer(ray_, t, glm::cross(here.du, here.dv), face_, cell_.corner + cellSize_ * at);
+        nearest_.offer(ray_, t, glm::cross(here.du, here.dv), 0, patch_,
+                       cell_.corner + cellSize_ * at);
     }
 
     const Ray& ray_;
     const Cell& cell_;
     double cellSize_;
-    int face_;
+    int patch_;
     Nearest& nearest_;
     glm::dvec3 origin_;
     Net<glm::dvec2> flat_;
@@ -233,7 +234,7 @@ class Patches final : public Shape {
         }
     }
     Surface surface(const Ray&, const Hit& hit) const override {
-        const Net<glm::dvec3>& net = patches_[static_cast<std::size_t>(hit.face)].net;
+        const Net<glm::dvec3>& net = patches_[static_cast<std::size_t>(hit.piece)].net;
         Local<glm::dvec3> here = evaluate(net, hit.place);
         Surface s;
         s.point = here.value;

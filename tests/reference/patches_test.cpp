@@ -89,7 +89,7 @@ TEST_CASE("a saddle patch is met at the roots of its closed form, with its norma
             ++hits;
             CHECK(found[k] == Approx(expected[k]).epsilon(1e-10));
             const Surface s =
-                shape->surface(ray, {found[k], 0, {ray.at(found[k]).x, ray.at(found[k]).y}});
+                shape->surface(ray, {found[k], 0, 0, {ray.at(found[k]).x, ray.at(found[k]).y}});
             const glm::dvec3 n(-2.0 * s.point.x, 2.0 * s.point.y, 1.0);
             CHECK(glm::length(s.normal - glm::normalize(n)) < 1e-9);
         }
@@ -149,7 +149,7 @@ TEST_CASE("a collapsed edge has the normal of the surface beside it") {
     }
     const auto shape = makePatches({net});
     const Ray ray{{0, 0, 1}, {0, 0, -1}};
-    const Surface s = shape->surface(ray, {1.0, 0, {0.3, 0.0}});
+    const Surface s = shape->surface(ray, {1.0, 0, 0, {0.3, 0.0}});
     CHECK(std::abs(s.normal.z) == Approx(1.0).epsilon(1e-9));
 }
 

@@ -78,12 +78,12 @@ class Revolution final : public Shape {
             bands_[i].segment.intersect(ray, faces_[i], one);
             if (!one.found() || !(one.best().t < nearest.best().t)) continue;
             const glm::dvec3 outward = bands_[i].segment.normalAt(ray.at(one.best().t));
-            nearest.offer(ray, one.best().t, outward, faces_[i], {static_cast<double>(i), 0.0});
+            nearest.offer(ray, one.best().t, outward, faces_[i], static_cast<int>(i));
         }
     }
 
     Surface surface(const Ray& ray, const Hit& hit) const override {
-        const Band& band = bands_[static_cast<std::size_t>(hit.place.x)];
+        const Band& band = bands_[static_cast<std::size_t>(hit.piece)];
         Surface s;
         s.point = ray.at(hit.t);
         s.normal = band.segment.normalAt(s.point);

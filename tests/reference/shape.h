@@ -20,11 +20,12 @@ struct Ray {
     glm::dvec3 at(double t) const { return origin + t * direction; }
 };
 
-/// Where a ray meets a shape. `place` and `face` are the shape's own notes; a change of `face`
-/// between neighbours is a crease.
+/// Where a ray meets a shape. A change of `face` between neighbours is a crease; `piece` and
+/// `place` are the shape's own notes.
 struct Hit {
     double t = std::numeric_limits<double>::infinity();
     int face = 0;
+    int piece = 0;
     glm::dvec2 place{0.0};
 };
 
@@ -33,11 +34,11 @@ class Nearest {
   public:
     Nearest(double from, double to, bool backs) : from_(from), to_(to), backs_(backs) {}
     /// `outward`: a vector on the outer side of the surface, of any length.
-    void offer(const Ray& ray, double t, const glm::dvec3& outward, int face = 0,
+    void offer(const Ray& ray, double t, const glm::dvec3& outward, int face = 0, int piece = 0,
                const glm::dvec2& place = glm::dvec2(0.0)) {
         if (!(t >= from_ && t <= to_ && t < best_.t)) return;
         if (!backs_ && !(glm::dot(outward, ray.direction) < 0.0)) return;
-        best_ = {t, face, place};
+        best_ = {t, face, piece, place};
         found_ = true;
     }
     bool found() const { return found_; }

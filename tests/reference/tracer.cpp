@@ -74,6 +74,8 @@ void color(const World& world, const Instance& one, const Ray& ray, const Hit& h
     if (one.texture) {
         const Place place = placeOf(world, one, s, direction, hit.t);
         texture = one.texture->sample(place.uv, place.dx, place.dy, one.filter);
+        if (one.filter == scene::Filter::nearest)
+            sample.texel = glm::floor(place.uv * glm::dvec2(one.texture->size(0)));
         constexpr double kJump = 0.125;  // as round the poles, where no filter is right
         sample.coarse = glm::length(place.dx) > kJump || glm::length(place.dy) > kJump;
     }
@@ -117,7 +119,7 @@ std::uint8_t flagsOf(const Picture& picture, const std::vector<Sample>& samples,
             if (there.id != here.id)
                 flags |= kSilhouette;
             else if (here.id != 0 && (i != x || j != y) &&
-                     (there.part != here.part || bends(here, there)))
+                     (there.part != here.part || there.texel != here.texel || bends(here, there)))
                 flags |= kCrease;
         }
     return static_cast<std::uint8_t>(flags);

@@ -15,6 +15,7 @@ struct Sample {
     int part = 0;        ///< the face of the shape, and which cones of light it is in
     double depth = 0.0;  ///< along the view
     glm::dvec3 point{0.0}, normal{0.0};  ///< eye space; the normal unit, of the surface
+    glm::ivec2 texel{0};                 ///< the one seen, with the filter `nearest`
     bool coarse = false;  ///< texture coordinates jump here by an eighth or more a pixel
 };
 
@@ -38,7 +39,8 @@ struct Picture {
 
 /// Why a pixel is not an interior one: a neighbour, diagonals included, is of another object (or
 /// of another sheet of the same: silhouette); or of another face, on the other side of a crease,
-/// or of the edge of a cone of light, or sees the texture jump (crease).
+/// or of the edge of a cone of light, of another texel of an unfiltered texture, or sees the
+/// texture's coordinates jump (crease).
 enum Flags : std::uint8_t { kInterior = 0, kSilhouette = 1, kCrease = 2 };
 
 /// R1: one ray through the centre of each pixel.

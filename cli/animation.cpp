@@ -40,14 +40,16 @@ void showProgress(int done, int all) {
 
 }  // namespace
 
-Schedule schedule(const AnimationFlags& flags, const render::SceneReport& report, double beginS) {
-    const std::optional<double>& loop = report.loopSeconds;
+Schedule schedule(const AnimationFlags& flags, const render::SceneReport& report, double timeS) {
+    std::optional<double> loop;
+    if (report.playS) loop = report.playS->y - report.playS->x;
     if (!(flags.frames && flags.fps) && !loop)
         throw UsageError(
             report.animated
                 ? "this scene has no loop shorter than an hour: give both --frames and --fps"
                 : "nothing moves in this scene: give both --frames and --fps, or neither");
-    Schedule made{flags.frames.value_or(0), flags.fps.value_or(0.0), beginS};
+    Schedule made{flags.frames.value_or(0), flags.fps.value_or(0.0),
+                  timeS + (report.playS ? report.playS->x : 0.0)};
     if (!flags.frames) made.frames = std::max(1, static_cast<int>(std::lround(*loop * *flags.fps)));
     // Rounded to whole frames, the loop still closes: the rate gives way.
     if (!(flags.frames && flags.fps)) made.fps = made.frames / *loop;

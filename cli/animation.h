@@ -20,10 +20,10 @@ struct Schedule {
     double fps, beginS;
 };
 
-/// Given one of --frames and --fps, the other follows from the scene's loop, so that the last frame
-/// leads into the first; given both, they are taken as they are. Throws UsageError when the loop is
-/// needed and the scene has none.
-Schedule schedule(const AnimationFlags& flags, const render::SceneReport& report, double beginS);
+/// Given one of --frames and --fps, the other follows from the scene's time range or loop, so that
+/// the last frame leads into the first; given both, they are taken as they are. `timeS` is added to
+/// every moment. Throws UsageError when the loop is needed and the scene has none.
+Schedule schedule(const AnimationFlags& flags, const render::SceneReport& report, double timeS);
 
 /// Renders all frames into `output`: an animated PNG, or, with a %d (%04d) in the name, one picture
 /// a frame. Shows progress on stderr where that is a terminal. Returns the last picture's facts.

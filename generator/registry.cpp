@@ -75,9 +75,11 @@ std::size_t placeOf(const Shape& shape, std::size_t index) {
     return 1 + (shape.takesFile ? 1 : 0) + index;
 }
 
-bool isOpenAt(const Shape& shape, const std::vector<std::string>& words, std::size_t index) {
+bool isOpenAt(const Shape& shape, const scene::Model& model, std::size_t index) {
+    const std::vector<std::string>& words = model.source.words;
     const std::size_t at = placeOf(shape, index);
-    return shape.arguments[index].level && (at >= words.size() || words[at] == "auto");
+    return shape.arguments[index].level &&
+           (model.autoLod || at >= words.size() || words[at] == "auto");
 }
 
 }  // namespace
@@ -124,7 +126,7 @@ bool isOpen(const scene::Model& model) {
     const Shape* shape = findShape(model.source.words.at(0));
     if (shape == nullptr || entryOf(*shape).levels == nullptr) return false;
     for (std::size_t i = 0; i < shape->arguments.size(); ++i)
-        if (isOpenAt(*shape, model.source.words, i)) return true;
+        if (isOpenAt(*shape, model, i)) return true;
     return false;
 }
 
@@ -139,7 +141,7 @@ std::vector<std::string> refine(const scene::Model& model, const scene::Assets& 
     for (std::size_t i = 0; i < shape.arguments.size(); ++i) {
         if (!shape.arguments[i].level) continue;
         const double chosen = std::max(shape.arguments[i].min, levels.at(level++));
-        if (!isOpenAt(shape, words, i)) continue;
+        if (!isOpenAt(shape, model, i)) continue;
         words.resize(std::max(words.size(), placeOf(shape, i) + 1));
         words[placeOf(shape, i)] = std::to_string(static_cast<int>(chosen));
     }

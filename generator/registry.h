@@ -60,8 +60,9 @@ void resolve(scene::Scene& scene, const scene::Assets& assets, Diagnostics& diag
 /// a mesh file is added to `findings` where it is given.
 Mesh load(const scene::Model& model, const scene::Assets& assets, Diagnostics* findings = nullptr);
 
-/// True when a model's shape leaves divisions open (left out, or "auto"): its mesh is made as fine
-/// as the picture needs. What is written is honoured to the letter.
+/// True when a model's shape leaves divisions open (left out, "auto", or all of them by
+/// lod="auto"): its mesh is made as fine as the picture needs. What is written is honoured to the
+/// letter.
 bool isOpen(const scene::Model& model);
 
 /// The words of an open model with its divisions chosen: the coarsest of a small ladder that keep

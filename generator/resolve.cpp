@@ -46,6 +46,10 @@ class Resolver {
     void visit(scene::Group& group) {
         for (scene::Model& model : group.models) {
             resolveModel(model);
+            // In the 2017 engines a plane has a second face that looks down.
+            if (scene_.dialect == scene::Dialect::engine2017 && !model.source.words.empty() &&
+                model.source.words[0] == "plane")
+                model.twoSided = true;
             if (model.texture && !model.texture->chess)
                 resolveFile(model.texture->file, model.texture->path, "texture",
                             model.texture->where);

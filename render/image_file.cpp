@@ -30,41 +30,75 @@ std::string sniff(std::string_view bytes, const std::string& name) {
     return ending == "tga" ? "targa" : "";
 }
 
+/// An opened picture file: its head is read and within bounds.
+class Reader {
+  public:
+    Reader(std::string_view bytes, const std::string& name, const Location& where)
+        : name_(name),
+          where_(where),
+          // The reader never writes.
+          proxy_(const_cast<char*>(bytes.data()), bytes.size()) {
+        const std::string format = sniff(bytes, name);
+        if (format.empty())
+            throw fault(bytes.empty()
+                            ? "the file is empty"
+                            : "it is none of PNG, JPEG, WebP, BMP, TGA, GIF, TIFF, PNM, HDR");
+        input_ = OIIO::ImageInput::create(format, false, nullptr, &proxy_);
+        if (!input_) throw fault("this build has no decoder for " + format);
+        OIIO::ImageSpec config;
+        config.attribute("oiio:UnassociatedAlpha", 1);
+        if (!input_->set_ioproxy(&proxy_) || !input_->open("memory." + format, spec_, config))
+            throw fault(input_->geterror());
+        if (spec_.width <= 0 || spec_.height <= 0 || spec_.nchannels <= 0)
+            throw fault("it has no pixels");
+        if (std::int64_t{spec_.width} * spec_.height > kMaxTexturePixels || spec_.depth > 1 ||
+            spec_.nchannels > 16)
+            throw Error("limit.texture",
+                        "'" + name + "' is " + std::to_string(spec_.width) + " x " +
+                            std::to_string(spec_.height) +
+                            " px; at most 64 million pixels are taken",
+                        where);
+    }
+    const OIIO::ImageSpec& spec() const { return spec_; }
+    /// The first `channels` of every pixel.
+    std::vector<std::uint8_t> read(int channels) {
+        std::vector<std::uint8_t> raw(static_cast<std::size_t>(spec_.width) *
+                                      static_cast<std::size_t>(spec_.height) *
+                                      static_cast<std::size_t>(channels));
+        if (!input_->read_image(0, 0, 0, channels, OIIO::TypeDesc::UINT8, raw.data()))
+            throw fault(input_->geterror());
+        return raw;
+    }
+
+  private:
+    Error fault(const std::string& why) const {
+        return Error("image.unreadable", "'" + name_ + "' cannot be read as a picture: " + why,
+                     where_);
+    }
+    const std::string& name_;
+    const Location& where_;
+    OIIO::Filesystem::IOMemReader proxy_;
+    OIIO::ImageSpec spec_;
+    std::unique_ptr<OIIO::ImageInput> input_;
+};
+
 }  // namespace
 
+ImageSize imageSize(std::string_view bytes, const std::string& name, const Location& where) {
+    const Reader reader(bytes, name, where);
+    return {reader.spec().width, reader.spec().height};
+}
+
 Image decodeImage(std::string_view bytes, const std::string& name, const Location& where) {
-    const auto fail = [&](const std::string& why) -> Error {
-        return Error("image.unreadable", "'" + name + "' cannot be read as a picture: " + why,
-                     where);
-    };
-    const std::string format = sniff(bytes, name);
-    if (format.empty())
-        throw fail(bytes.empty() ? "the file is empty"
-                                 : "it is none of PNG, JPEG, WebP, BMP, TGA, GIF, TIFF, PNM, HDR");
-    OIIO::Filesystem::IOMemReader proxy(const_cast<char*>(bytes.data()),
-                                        bytes.size());  // the reader never writes
-    auto input = OIIO::ImageInput::create(format, false, nullptr, &proxy);
-    if (!input) throw fail("this build has no decoder for " + format);
-    OIIO::ImageSpec config;
-    config.attribute("oiio:UnassociatedAlpha", 1);
-    OIIO::ImageSpec spec;
-    if (!input->set_ioproxy(&proxy) || !input->open("memory." + format, spec, config))
-        throw fail(input->geterror());
-    const std::int64_t count = std::int64_t{spec.width} * spec.height;
-    if (spec.width <= 0 || spec.height <= 0 || spec.nchannels <= 0) throw fail("it has no pixels");
-    if (count > kMaxTexturePixels || spec.depth > 1 || spec.nchannels > 16)
-        throw Error("limit.texture",
-                    "'" + name + "' is " + std::to_string(spec.width) + " x " +
-                        std::to_string(spec.height) + " px; at most 64 million pixels are taken",
-                    where);
-    const int channels = std::min(spec.nchannels, 4);
-    std::vector<std::uint8_t> raw(static_cast<std::size_t>(count * channels));
-    if (!input->read_image(0, 0, 0, channels, OIIO::TypeDesc::UINT8, raw.data()))
-        throw fail(input->geterror());
-    Image image{spec.width, spec.height, {}};
-    image.pixels.resize(static_cast<std::size_t>(count) * 4);
+    Reader reader(bytes, name, where);
+    const int channels = std::min(reader.spec().nchannels, 4);
+    const std::vector<std::uint8_t> raw = reader.read(channels);
+    Image image{reader.spec().width, reader.spec().height, {}};
+    const std::size_t count =
+        static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+    image.pixels.resize(count * 4);
     const std::size_t step = static_cast<std::size_t>(channels);
-    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+    for (std::size_t i = 0; i < count; ++i) {
         const std::uint8_t* from = &raw[i * step];
         std::uint8_t* to = &image.pixels[i * 4];
         to[0] = from[0];

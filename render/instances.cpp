@@ -41,10 +41,8 @@ class Collector {
         const glm::dmat4 worldFromGroup =
             worldFromParent * scene::matrixAt(group.transforms, timeS_);
         if (!group.scatter) return fill(group, worldFromGroup, lightSet);
-        // The place in the document is the seed: the same scene, the same picture.
-        const auto seed = static_cast<std::uint64_t>(group.where.line) * 1000003U +
-                          static_cast<std::uint64_t>(group.where.column);
-        for (const glm::dmat4& groupFromCopy : scene::scatterMatrices(*group.scatter, seed))
+        for (const glm::dmat4& groupFromCopy :
+             scene::scatterMatrices(*group.scatter, group.scatter->seed))
             fill(group, worldFromGroup * groupFromCopy, lightSet);
     }
 

@@ -61,7 +61,7 @@ class Planner {
         plan_.worldFromView = glm::mat3(glm::transpose(view_.rotation));
         sight_ = {plan_.camera, plan_.width, plan_.height, options_.errorPx, plan_.shading};
         clip_ = clipFromView(plan_.camera, aspect_, glm::dvec2(0.0));
-        addInstances(list, view_, {});
+        addInstances(scene_, list, view_, {});
         plan_.findings = list.findings;
         if (scene_.entity) addEntity(*scene_.entity);
         addLines(list);
@@ -92,17 +92,18 @@ class Planner {
     }
 
     /// `inherited`: lights of the set 0 that a list without lights of its own is lit by.
-    void addInstances(const InstanceList& list, const View& view,
+    void addInstances(const scene::Scene& scene, const InstanceList& list, const View& view,
                       const std::vector<EyeLight>& inherited) {
         const int firstSet = static_cast<int>(plan_.lightSets.size());
         addLights(list, view, inherited);
-        for (const Instance& instance : list.instances) add(instance, view, firstSet);
+        for (const Instance& instance : list.instances)
+            add(instance, view, firstSet, scene::defaultMaterial(scene.dialect));
     }
 
     /// A second scene whose world is eye space, lit by its own lights, else by the scene's.
     void addEntity(const scene::Scene& entity) {
         const InstanceList list = collect(entity, options_.timeS, false, assets_, meshes_);
-        addInstances(list, {glm::dmat3(1.0), -kEntityPlace},
+        addInstances(entity, list, {glm::dmat3(1.0), -kEntityPlace},
                      std::vector<EyeLight>(plan_.lightSets[0]));
     }
 
@@ -167,7 +168,8 @@ class Planner {
         return all != 0;
     }
 
-    void add(const Instance& instance, const View& view, int firstSet) {
+    void add(const Instance& instance, const View& view, int firstSet,
+             const scene::Material& undressed) {
         const auto id = static_cast<std::uint32_t>(++plan_.stats.instances);
         const glm::dmat3 linear = view.rotation * glm::dmat3(instance.worldFromObject);
         const glm::dvec3 origin = view(glm::dvec3(instance.worldFromObject[3]));
@@ -196,7 +198,7 @@ class Planner {
         if (largest > 0.0)
             item.normalFromObject = glm::mat3(cofactor * ((det < 0.0 ? -1.0 : 1.0) / largest));
         item.mirrored = det < 0.0;
-        fillMaterial(item, model);
+        fillMaterial(item, model, undressed);
         item.lightSet = firstSet + instance.lightSet;
         item.id = id;
         plan_.stats.triangles += static_cast<std::int64_t>(item.mesh->mesh.triangles());
@@ -210,8 +212,8 @@ class Planner {
         plan_.items.push_back(std::move(item));
     }
 
-    void fillMaterial(DrawItem& item, const scene::Model& model) {
-        const scene::Material material = model.material.value_or(scene::Material{});
+    void fillMaterial(DrawItem& item, const scene::Model& model, const scene::Material& undressed) {
+        const scene::Material& material = model.material ? *model.material : undressed;
         const double t = options_.timeS;
         item.diffuse = scene::colorAt(material.diffuse, t);
         item.ambient = scene::colorAt(material.ambient, t);

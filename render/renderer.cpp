@@ -144,7 +144,9 @@ SceneReport inspect(const Job& job) {
     report.title = scene.title;
     report.description = scene.description;
     report.animated = scene::isAnimated(scene);
-    report.loopSeconds = scene::loopSeconds(scene);
+    report.playS = scene.settings.timeRangeS;
+    if (const auto loop = scene::loopSeconds(scene); loop && !report.playS)
+        report.playS = glm::dvec2(0.0, *loop);
     const glm::ivec2 size = pictureSize(scene, job.options);
     report.width = size.x;
     report.height = size.y;
@@ -157,13 +159,16 @@ SceneReport inspect(const Job& job) {
     std::set<std::string> textures;
     for (const Instance& instance : list.instances) {
         report.triangles += static_cast<std::int64_t>(instance.mesh->mesh.triangles());
-        if (instance.model->texture && !instance.model->texture->path.empty())
-            textures.insert(instance.model->texture->path);
+        const auto& texture = instance.model->texture;
+        if (!texture || texture->path.empty() || !textures.insert(texture->path).second) continue;
+        const auto bytes = prepared.assets->read(texture->path);
+        if (!bytes)
+            throw Error("asset.missing", "there is no file '" + texture->path + "'",
+                        texture->where);
+        imageSize(*bytes, texture->path, texture->where);  // a damaged head is news to the author
+        report.textureBytes += static_cast<std::int64_t>(bytes->size());
     }
     report.textures = static_cast<int>(textures.size());
-    for (const std::string& path : textures)
-        if (const auto bytes = prepared.assets->read(path))
-            report.textureBytes += static_cast<std::int64_t>(bytes->size());
     return report;
 }
 

@@ -50,7 +50,8 @@ struct SceneReport {
     std::string title, description;
     int width = 512, height = 512;
     bool animated = false;
-    std::optional<double> loopSeconds;  ///< see scene/loop.h
+    /// What an animation shows: the scene's own time range, else one loop (scene/loop.h) from 0.
+    std::optional<glm::dvec2> playS;
     scene::Camera camera;
     std::int64_t triangles = 0;
     int models = 0, lights = 0, textures = 0;

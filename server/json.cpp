@@ -37,8 +37,11 @@ json toJson(const render::SceneReport& report) {
                   {"triangles", report.triangles},
                   {"textureBytes", report.textureBytes}}},
                 {"diagnostics", toJson(report.diagnostics)}};
-    // One lap of the whole animation, for clients that play it.
-    if (report.loopSeconds) out["loopSeconds"] = *report.loopSeconds;
+    // What a client that plays the animation shows, again and again.
+    if (report.playS) {
+        out["playFrom"] = report.playS->x;
+        out["loopSeconds"] = report.playS->y - report.playS->x;
+    }
     return out;
 }
 

@@ -11,6 +11,7 @@ namespace {
 
 constexpr std::string_view kSuffix = ".xml";
 constexpr std::string_view kMainFile = "scene.xml";
+constexpr std::string_view kUnlistedFile = "unlisted.txt";
 
 std::string folderOf(const std::string& path) {
     const std::size_t slash = path.rfind('/');
@@ -39,12 +40,20 @@ std::shared_ptr<const scene::Assets> SceneFolder::assets(const ServedScene& scen
     return std::make_shared<scene::FolderAssets>(folder.empty() ? root_ : root_ + "/" + folder);
 }
 
+bool SceneFolder::isPart(const std::string& path) const {
+    const std::string folder = folderOf(path);
+    if (folder.empty()) return false;
+    if (files_.has(folder + "/" + std::string(kUnlistedFile))) return true;
+    const std::string main = folder + "/" + std::string(kMainFile);
+    return path != main && files_.has(main);
+}
+
 std::vector<ServedScene> SceneFolder::list() const {
     std::vector<ServedScene> scenes;
     if (root_.empty()) return scenes;
     std::map<std::string, std::string> versions;  // by folder: many scenes may share one
     for (const std::string& path : files_.list()) {
-        if (!path.ends_with(kSuffix) || path.size() == kSuffix.size()) continue;
+        if (!path.ends_with(kSuffix) || path.size() == kSuffix.size() || isPart(path)) continue;
         ServedScene scene{idOf(path), path, ""};
         auto [entry, isNew] = versions.try_emplace(folderOf(path));
         if (isNew) entry->second = versionOf(*assets(scene));

@@ -27,7 +27,9 @@ class SceneFolder {
     /// An empty `root` serves no scenes.
     explicit SceneFolder(std::string root);
 
-    /// All scenes in the order of their ids; at most Assets::kMaxListed files are looked at.
+    /// All scenes in the order of their ids; at most Assets::kMaxListed files are looked at. Left
+    /// out: the other documents of a folder that has a scene.xml (they are its parts), and all of a
+    /// folder that holds a file unlisted.txt. find() knows them all the same.
     std::vector<ServedScene> list() const;
     std::optional<ServedScene> find(const std::string& id) const;
     /// The document's bytes; nothing if it went away meanwhile.
@@ -36,6 +38,7 @@ class SceneFolder {
     std::shared_ptr<const scene::Assets> assets(const ServedScene& scene) const;
 
   private:
+    bool isPart(const std::string& path) const;
     std::string root_;
     scene::FolderAssets files_;
 };

@@ -259,15 +259,16 @@ function setTime(seconds) {
 }
 
 // The slider runs over one lap of the whole animation, or a minute where there is none.
-function setAnimated(animated, loopSeconds) {
+function setAnimated({ animated, playFrom = 0, loopSeconds = 60 }) {
   view.animated = animated;
   $('time-controls').hidden = !animated;
-  $('time').max = loopSeconds || 60;
+  Object.assign($('time'), { min: playFrom, max: playFrom + loopSeconds });
 }
 
 function tick(now) {
   if (!view.playing) return;
-  setTime((view.time + Math.min(0.25, (now - lastTick) / 1000)) % Number($('time').max));
+  const from = +$('time').min, lap = $('time').max - from, step = Math.min(0.25, (now - lastTick) / 1000);
+  setTime(from + (view.time - from + step) % lap);
   lastTick = now;
   draw(true);
   requestAnimationFrame(tick);
@@ -298,10 +299,9 @@ $('controls').addEventListener('change', (event) => { if (event.target.name) dra
 $('controls').addEventListener('submit', (event) => event.preventDefault());
 
 let keepPicture = false;
-
-function open(source, { title, description, animated, loopSeconds, orbit = null, time = 0 }) {
+function open(source, { title, description, orbit = null, time = 0, ...play }) {
   Object.assign(view, { source, orbit, home: null, playing: false });
-  setAnimated(animated, loopSeconds);
+  setAnimated(play);
   setTime(time);
   pending = null;
   if (flight) flight.controller.abort();
@@ -359,10 +359,10 @@ async function openText(main, files) {
   open(source, { title: main.name, description: '', animated: false });
   const response = await fetch('/v1/validate', { method: 'POST', body: bodyOf(files, main) });
   if (!response.ok || view.source !== source) return;  // what is wrong comes with the picture
-  const { title, description, animated, loopSeconds } = await response.json();
+  const { title, description, ...play } = await response.json();
   if (title) $('title').textContent = title;
   $('description').textContent = description;
-  setAnimated(animated, loopSeconds);
+  setAnimated(play);
 }
 
 $('render').addEventListener('click', () => {

@@ -25,14 +25,13 @@ std::vector<std::string_view> split(std::string_view bytes) {
     return lines.size() == 1 ? pieces(bytes, ';') : lines;
 }
 
-/// All numbers of a list, with the line that the list stands on.
+/// All numbers of a list, with the line that each stands on.
 NumberRows numbersOf(std::string_view list, std::string_view all, const std::string& file) {
-    const auto before = static_cast<std::size_t>(list.data() - all.data());
-    NumberRows rows = parseRows(list, file);
-    const auto skipped =
-        std::count(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(before), '\n');
-    for (Row& row : rows.rows) row.line += static_cast<int>(skipped);
-    return rows;
+    const std::string_view before =
+        all.substr(0, static_cast<std::size_t>(list.data() - all.data()));
+    const auto lines = std::count(before.begin(), before.end(), '\n');
+    const std::size_t columns = before.size() - (before.rfind('\n') + 1);  // npos + 1 is 0
+    return parseRows(list, file, static_cast<int>(lines) + 1, static_cast<int>(columns) + 1);
 }
 
 template <int N, class Vector>

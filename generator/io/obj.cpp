@@ -173,7 +173,7 @@ class Reader {
     }
 
     const std::string& file_;
-    int line_ = 0;
+    int line_ = 1;
     std::vector<glm::vec3> positions_, normals_;
     std::vector<glm::vec2> uvs_;
     std::vector<Corner> corners_;

@@ -45,15 +45,15 @@ void NumberRows::refuse(const char* code, const Row& row, const std::string& mes
     throw Error(code, message, {file, row.line, 1});
 }
 
-NumberRows parseRows(std::string_view bytes, const std::string& file) {
+NumberRows parseRows(std::string_view bytes, const std::string& file, int line, int column) {
     NumberRows out;
     out.file = file;
     if (bytes.substr(0, 3) == "\xEF\xBB\xBF") bytes.remove_prefix(3);
-    int line = 0;
+    const int firstLine = line--, firstColumn = column;
     std::uint32_t block = 0;
     bool blank = false;
     while (!bytes.empty()) {
-        ++line;
+        column = ++line == firstLine ? firstColumn : 1;
         const std::size_t end = std::min(bytes.find('\n'), bytes.size());
         std::string_view text = bytes.substr(0, end);
         bytes.remove_prefix(std::min(end + 1, bytes.size()));
@@ -68,8 +68,8 @@ NumberRows parseRows(std::string_view bytes, const std::string& file) {
             }
             std::size_t stop = at;
             while (stop < text.size() && !isSeparator(text[stop])) ++stop;
-            out.values.push_back(
-                parseToken(text.substr(at, stop - at), {file, line, static_cast<int>(at) + 1}));
+            out.values.push_back(parseToken(text.substr(at, stop - at),
+                                            {file, line, static_cast<int>(at) + column}));
             at = stop;
         }
         const auto count = static_cast<std::uint32_t>(out.values.size()) - first;
@@ -81,7 +81,8 @@ NumberRows parseRows(std::string_view bytes, const std::string& file) {
         blank = false;
         out.rows.push_back({line, first, count, block});
     }
-    if (out.rows.empty()) throw Error("mesh.empty", "the mesh file holds no numbers", {file, 1, 1});
+    if (out.rows.empty())
+        throw Error("mesh.empty", "the mesh file holds no numbers", {file, firstLine, firstColumn});
     return out;
 }
 

@@ -33,8 +33,9 @@ inline constexpr double kMaxCoordinate = 1e18;
 
 /// Splits `bytes` into rows of numbers parted by blanks, commas or semicolons; `#` and `//` begin
 /// comments. Throws Error mesh.syntax for anything else, mesh.number for NaN, Inf and numbers over
-/// kMaxCoordinate, mesh.empty where there is no number.
-NumberRows parseRows(std::string_view bytes, const std::string& file);
+/// kMaxCoordinate, mesh.empty where there is no number. `bytes` begin at that line and column of
+/// the file.
+NumberRows parseRows(std::string_view bytes, const std::string& file, int line = 1, int column = 1);
 
 /// A number of the file as an index below `size`. Throws mesh.index with the row's line.
 std::uint32_t indexIn(const NumberRows& rows, const Row& row, double value, std::size_t size);

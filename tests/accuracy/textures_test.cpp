@@ -1,50 +1,12 @@
 #include <catch2/catch.hpp>
-#include <cmath>
-#include <map>
 
-#include "render/encode.h"
 #include "tests/accuracy/measure.h"
+#include "tests/accuracy/pattern.h"
 
 using namespace farol;
 using namespace farol::accuracy;
 
 namespace {
-
-/// Smooth waves over fine noise, no power of two: what a filter gets wrong shows.
-render::Image pattern(int width, int height) {
-    render::Image image{width, height, {}};
-    std::uint32_t state = 7;
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x) {
-            for (int c = 0; c < 3; ++c) {
-                state = state * 1664525U + 1013904223U;
-                const double wave =
-                    std::sin(6.2831853 * (x * (c + 1.0) / width + y * 2.0 / height));
-                const double noise = static_cast<double>(state >> 24U) / 255.0 - 0.5;
-                image.pixels.push_back(
-                    static_cast<std::uint8_t>(std::lround(127.5 + 70.0 * wave + 60.0 * noise)));
-            }
-            image.pixels.push_back(255);
-        }
-    return image;
-}
-
-struct Supplies {
-    std::shared_ptr<scene::Assets> assets;
-    reference::Files files;
-};
-
-Supplies supplies(int width, int height) {
-    const render::Image image = pattern(width, height);
-    reference::Pixels pixels{width, height, {}};
-    for (std::size_t i = 0; i < image.pixels.size(); ++i)
-        if (i % 4 != 3) pixels.rgb.push_back(image.pixels[i]);
-    Supplies all;
-    all.assets = std::make_shared<scene::BundleAssets>(
-        std::map<std::string, std::string>{{"it.png", render::encodePng(image)}});
-    all.files.pictures["it.png"] = pixels;
-    return all;
-}
 
 std::string document(const std::string& file, const std::string& extra = "") {
     return R"(<world><window width="300" height="300"/>

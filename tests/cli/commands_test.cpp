@@ -159,7 +159,7 @@ TEST_CASE("warnings are said, and with --strict they are errors") {
     CHECK_FALSE(exists("q.png"));
 }
 
-TEST_CASE("--json says all of it on stdout, and nothing on stderr") {
+TEST_CASE("all is said on stdout with --json, and nothing on stderr") {
     freshFolder("json");
     writeFile("scene.xml", kScene);
     writeFile("cut.xml", std::string(kScene).substr(0, 300));

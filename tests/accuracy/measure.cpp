@@ -85,7 +85,7 @@ Figures measure(const std::string& xml, const render::PictureOptions& options,
             if (exact.edge[at] & reference::kSilhouette)
                 silhouette.add(difference, x, y);
             else if (exact.id[at] == 0)
-                continue;
+                figures.stray += worstOf(difference) > 0.0 ? 1 : 0;
             else if (exact.edge[at] & reference::kCrease)
                 crease.add(difference, x, y);
             else
@@ -103,8 +103,9 @@ void print(const std::string& name, const Figures& f) {
     std::printf("%-28s interior %6d px: rms %.3f p99.9 %.2f max %.2f at %d,%d; ", name.c_str(),
                 f.interior.pixels, f.interior.rms, f.interior.percentile999, f.interior.worst,
                 f.interior.worstX, f.interior.worstY);
-    std::printf("silhouette %5d px: rms %.2f, %d flipped; crease %4d px: rms %.2f\n",
-                f.silhouette.pixels, f.silhouette.rms, f.flipped, f.crease.pixels, f.crease.rms);
+    std::printf("silhouette %5d px: rms %.2f, %d flipped; crease %4d px: rms %.2f; %d stray\n",
+                f.silhouette.pixels, f.silhouette.rms, f.flipped, f.crease.pixels, f.crease.rms,
+                f.stray);
 }
 
 }  // namespace farol::accuracy

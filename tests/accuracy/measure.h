@@ -22,6 +22,7 @@ struct Figures {
     Difference interior;    ///< of one object, away from silhouettes and creases
     Difference silhouette;  ///< within a pixel of another object or the background
     Difference crease;  ///< within a pixel of a crease, a cone of light's edge, a texture's pole
+    int stray = 0;      ///< pixels well inside the background that show something else
     int flipped = 0;    ///< silhouette pixels that show something else: over 24 levels off
 };
 

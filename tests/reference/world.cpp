@@ -111,7 +111,8 @@ class Maker {
     void add(const scene::Model& model, const glm::dmat4& worldFromObject,
              const std::vector<EyeLight>& lights) {
         Instance one;
-        one.shape = makeShape(wordsOf(model), model.uv, files_.texts);
+        const std::vector<std::string> words = wordsOf(model);
+        one.shape = makeShape(words, model.uv, files_.texts);
         one.id = ++count_;
         one.viewFromObject = axes_ * glm::dmat3(worldFromObject);
         one.objectFromView = glm::inverse(one.viewFromObject);
@@ -119,7 +120,9 @@ class Maker {
             if (!(glm::length(one.objectFromView[i]) < 1e30))
                 throw std::invalid_argument("the reference has no flattened objects");
         one.originView = toEye(glm::dvec3(worldFromObject[3]));
-        one.twoSided = model.twoSided;
+        // The planes of the 2017 dialect have a second face.
+        one.twoSided =
+            model.twoSided || (scene_.dialect == scene::Dialect::engine2017 && words[0] == "plane");
         one.lights = lights;
         one.unlit = !lit_;
         const scene::Material material =

@@ -130,4 +130,20 @@ Prepared prepare(const Job& job) {
     return prepared;
 }
 
+std::shared_ptr<const Prepared> PreparedCache::get(const Job& job) {
+    if (job.identity.empty()) return std::make_shared<const Prepared>(prepare(job));
+    const std::string key = job.identity + '\n' + job.name + '\n' + (job.strict ? 's' : 'l') +
+                            job.options.entity.value_or("");
+    const auto found =
+        std::find_if(kept_.begin(), kept_.end(), [&](const auto& one) { return one.first == key; });
+    if (found != kept_.end()) {
+        kept_.splice(kept_.begin(), kept_, found);
+        return kept_.front().second;
+    }
+    auto prepared = std::make_shared<const Prepared>(prepare(job));
+    kept_.emplace_front(key, prepared);
+    if (kept_.size() > most_) kept_.pop_back();
+    return prepared;
+}
+
 }  // namespace farol::render

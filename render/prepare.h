@@ -1,6 +1,9 @@
 #pragma once
 
+#include <list>
 #include <memory>
+#include <string>
+#include <utility>
 
 #include "render/renderer.h"
 #include "scene/scene.h"
@@ -17,6 +20,19 @@ struct Prepared {
 /// Reads the document (or, by the ending of the name, a mesh file on its own) and resolves what it
 /// names. Throws Error with all findings when one is an error, or in strict a warning.
 Prepared prepare(const Job& job);
+
+/// Scenes that were read, by Job::identity and what else decides over reading, least recently used
+/// first out. Jobs without an identity are read anew.
+class PreparedCache {
+  public:
+    explicit PreparedCache(std::size_t most) : most_(most) {}
+    /// Throws as prepare does; what is refused is not kept.
+    std::shared_ptr<const Prepared> get(const Job& job);
+
+  private:
+    std::size_t most_;
+    std::list<std::pair<std::string, std::shared_ptr<const Prepared>>> kept_;  ///< latest first
+};
 
 /// Throws Error with all of `diagnostics` when one is an error; in strict, warnings are.
 void refuseErrors(Diagnostics& diagnostics, bool strict);

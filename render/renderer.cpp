@@ -21,6 +21,7 @@ namespace farol::render {
 namespace {
 
 constexpr std::size_t kMeshBytes = std::size_t{256} << 20;
+constexpr std::size_t kScenes = 64;  // at most 50,000 elements each
 
 /// Milliseconds since the last call, for stage times.
 class Stopwatch {
@@ -88,6 +89,7 @@ void takeFindings(Diagnostics& diagnostics, const Diagnostics& findings, bool st
 struct Renderer::State {
     gl::Painter painter;
     MeshLibrary meshes{kMeshBytes};
+    PreparedCache scenes{kScenes};
 };
 
 Renderer::Renderer() : state_(std::make_unique<State>()) {}
@@ -99,7 +101,8 @@ Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 Picture Renderer::draw(const Job& job, Image& image) {
     Picture picture;
     Stopwatch watch;
-    const Prepared prepared = prepare(job);
+    const std::shared_ptr<const Prepared> kept = state_->scenes.get(job);
+    const Prepared& prepared = *kept;
     picture.diagnostics = prepared.diagnostics;
     picture.times.parseMs = watch.lap();
 

@@ -21,6 +21,9 @@ struct Job {
     std::shared_ptr<const scene::Assets> assets;
     PictureOptions options;
     bool strict = false;
+    /// Names the document and every file beside it: a digest that changes with any of them. Where
+    /// given, the scene that was read is kept under it for the next picture; may be empty.
+    std::string identity = {};
 };
 
 /// What was drawn and what was skipped.

@@ -211,3 +211,26 @@ TEST_CASE("texture generation by eye planes moves with the camera, by object pla
     CHECK(edge(object) < 25);
     CHECK(std::abs(edge(eye) - 31) <= 1);
 }
+
+TEST_CASE(
+    "a scene kept under its identity gives the same picture, and another identity a new one") {
+    render::Renderer renderer;
+    const auto job = [](const std::string& identity, const char* color) {
+        render::Job made;
+        made.xml =
+            std::string("<world><group><models><model file='sphere_1_8_8.3d'><color><diffuse ") +
+            color + "/></color></model></models></group></world>";
+        made.options.width = made.options.height = 32;
+        made.identity = identity;
+        return made;
+    };
+    const render::Picture first = renderer.render(job("a", "R='200' G='0' B='0'"));
+    CHECK(renderer.render(job("a", "R='200' G='0' B='0'")).bytes == first.bytes);
+    CHECK(renderer.render(job("", "R='200' G='0' B='0'")).bytes == first.bytes);
+    CHECK(renderer.render(job("b", "R='0' G='200' B='0'")).bytes != first.bytes);
+    render::Job broken = job("c", "");
+    broken.xml = "<world>";
+    CHECK_THROWS_AS(renderer.render(broken), Error);
+    broken.xml = job("c", "R='1'").xml;
+    CHECK_NOTHROW(renderer.render(broken));  // what was refused is not remembered
+}

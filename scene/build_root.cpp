@@ -8,6 +8,11 @@
 #include "scene/words.h"
 
 namespace farol::scene {
+namespace {
+
+constexpr std::size_t kLongestTitle = 200;  ///< bytes
+
+}  // namespace
 
 SceneBuilder::SceneBuilder(const Document& document, ReadSession& session)
     : document_(document), session_(session) {}
@@ -99,7 +104,7 @@ bool SceneBuilder::rootElement(std::string_view canonical, pugi::xml_node elemen
 
 void SceneBuilder::rootAttributes(pugi::xml_node root) {
     const Values given = values(root, "world");
-    scene_.title = given.text("title");
+    scene_.title = bounded(given.text("title"), kLongestTitle, given.where("title"), "the title");
     if (given.text("dialect") == "course") scene_.dialect = Dialect::course;
     if (given.text("dialect") == "engine2017") scene_.dialect = Dialect::engine2017;
     if (given.text("dialect") == "engine2020") scene_.dialect = Dialect::engine2020;
@@ -265,20 +270,24 @@ void SceneBuilder::render(pugi::xml_node element) {
                          "\"time\" of <render> must be a range of seconds like \"0..10\"");
 }
 
-std::string SceneBuilder::textOf(pugi::xml_node element, std::size_t longest) {
-    std::string text(trimmed(element.child_value()));
-    if (text.size() <= longest) return text;
-    findings().warn(
-        "limit.text", at(element),
-        "<" + shown(element.name()) + "> is cut after " + std::to_string(longest) + " bytes");
+std::string SceneBuilder::bounded(std::string_view text, std::size_t longest, const Location& where,
+                                  const std::string& what) {
+    text = trimmed(text);
+    if (text.size() <= longest) return std::string(text);
+    findings().warn("limit.text", where,
+                    what + " is cut after " + std::to_string(longest) + " bytes");
     while (longest > 0 && (static_cast<unsigned char>(text[longest]) & 0xC0U) == 0x80U) --longest;
-    return text.substr(0, longest);
+    return std::string(trimmed(text.substr(0, longest)));
 }
 
-void SceneBuilder::title(pugi::xml_node element) { scene_.title = textOf(element, 200); }
+void SceneBuilder::title(pugi::xml_node element) {
+    scene_.title = bounded(element.child_value(), kLongestTitle, at(element),
+                           "<" + shown(element.name()) + ">");
+}
 
 void SceneBuilder::description(pugi::xml_node element) {
-    scene_.description = textOf(element, 4000);
+    scene_.description =
+        bounded(element.child_value(), 4000, at(element), "<" + shown(element.name()) + ">");
 }
 
 }  // namespace farol::scene

@@ -51,7 +51,8 @@ class SceneBuilder {
     void render(pugi::xml_node element);
     void title(pugi::xml_node element);
     void description(pugi::xml_node element);
-    std::string textOf(pugi::xml_node element, std::size_t longest);
+    std::string bounded(std::string_view text, std::size_t longest, const Location& where,
+                        const std::string& what);
 
     // Includes (build_include.cpp).
     void includes(pugi::xml_node element, Group& group, bool isRoot);

@@ -218,7 +218,9 @@ bool looksLikeObj(std::string_view bytes) {
 Mesh decodeObj(std::string_view bytes, const std::string& fileName) {
     Reader reader(fileName);
     std::string joined;  // a line that goes on after a backslash
-    for (int number = 1; !bytes.empty(); ++number) {
+    int number = 0;
+    while (!bytes.empty()) {
+        ++number;
         const std::size_t end = std::min(bytes.find('\n'), bytes.size());
         std::string_view line = bytes.substr(0, end);
         bytes.remove_prefix(std::min(end + 1, bytes.size()));
@@ -235,7 +237,7 @@ Mesh decodeObj(std::string_view bytes, const std::string& fileName) {
             joined.clear();
         }
     }
-    if (!joined.empty()) reader.readLine(joined, 0);
+    if (!joined.empty()) reader.readLine(joined, number);
     return reader.take();
 }
 

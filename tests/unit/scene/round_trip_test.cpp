@@ -93,6 +93,9 @@ TEST_CASE("scene to canonical XML to scene is the identity") {
                   "</models><lights><light type=\"POINT\" attenuation=\"0.1\"/>"
                   "</lights>"));
     checkRoundTrip("<scene camX=1 camY=2 yaw=33 pitch=-12.5/>");
+    // Longer than a title may be, by attribute and with a blank where it is cut.
+    checkRoundTrip("<world title=\"" + std::string(199, 't') + " title\"/>");
+    checkRoundTrip("<world><title>" + std::string(199, 't') + " title</title></world>");
     checkRoundTrip(transform("<translate x=1/><translate x=2/>"));
 }
 

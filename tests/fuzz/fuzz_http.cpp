@@ -1,0 +1,97 @@
+// Heads of requests: what is let through to the HTTP library is one clean head.
+#include <algorithm>
+
+#include "server/etag.h"
+#include "server/http/head.h"
+#include "server/http/uri.h"
+#include "tests/fuzz/checks.h"
+#include "tests/fuzz/target.h"
+
+namespace farol::fuzz {
+namespace {
+
+bool isControl(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; }
+
+bool clean(const std::string& text) { return std::none_of(text.begin(), text.end(), isControl); }
+
+void checkAccepted(const server::http::Head& head) {
+    const std::string& cleaned = head.cleaned;
+    require(cleaned.size() >= 4 && cleaned.find("\r\n\r\n") == cleaned.size() - 4,
+            "what is let through is not one head");
+    require(cleaned.size() <= server::http::kMaxHead + 64, "a head without bound");
+    for (std::size_t i = 0; i < cleaned.size(); ++i)
+        require(cleaned[i] != '\0' && (cleaned[i] != '\n' || (i > 0 && cleaned[i - 1] == '\r')),
+                "a line end of another kind is let through");
+    const server::http::Request& request = head.request;
+    require(request.path.starts_with('/') && clean(request.path), "no path");
+    require(request.path.size() <= server::http::kMaxPath, "a path without bound");
+    for (const auto& [name, value] : request.query)
+        require(clean(name) && clean(value), "a control character in the query");
+    require(!(head.chunked && head.contentLength), "two lengths of one body");
+    server::matchesTag(request.header("if-none-match"), "\"0123\"");
+}
+
+}  // namespace
+
+const Target& target() {
+    static const Target made{{"txt"},
+                             {"GET ",
+                              "POST ",
+                              "DELETE ",
+                              " HTTP/1.1\r\n",
+                              " HTTP/1.0\r\n",
+                              "\r\n",
+                              "\r\n\r\n",
+                              "\n",
+                              "Host: x\r\n",
+                              "Content-Length: 5\r\n",
+                              "Content-Length: 18446744073709551616\r\n",
+                              "Transfer-Encoding: chunked\r\n",
+                              "Transfer-Encoding: gzip\r\n",
+                              "Connection: close\r\n",
+                              "Expect: 100-continue\r\n",
+                              "Range: bytes=0-1\r\n",
+                              "REMOTE_ADDR: 1.2.3.4\r\n",
+                              "If-None-Match: *\r\n",
+                              "If-None-Match: W/\"0123\"\r\n",
+                              "X-Request-Id: a\r\n",
+                              "%00",
+                              "%2e%2e",
+                              "%",
+                              "?a=b&c",
+                              "http://h/",
+                              "//",
+                              "*",
+                              " ",
+                              "\t",
+                              ":",
+                              std::string("\0", 1)},
+                             512};
+    return made;
+}
+
+}  // namespace farol::fuzz
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    using namespace farol::server;
+    using namespace farol::fuzz;
+    std::string text(reinterpret_cast<const char*>(data), std::min(size, kMaxInput));
+    const std::string decoded = http::percentDecode(text, false).value_or("");
+    require(http::percentDecode(http::percentEncodePath(decoded), false) == decoded,
+            "what was encoded decodes to something else");
+    if (const std::size_t end = text.find("\r\n\r\n"); end != std::string::npos)
+        text.resize(end + 4);
+    else
+        text += "\r\n\r\n";  // as the connection hands it over
+    const http::Head head = http::checkHead(text);
+    if (head.refusal) {
+        const int status = head.refusal->status;
+        require(status >= 400 && status < 600 && !head.refusal->code.empty(), "no refusal");
+        reached(head.refusal->code + head.refusal->message);
+    } else {
+        checkAccepted(head);
+        reached(std::string(head.keepAlive ? "keep " : "") + (head.chunked ? "chunked " : "") +
+                (head.expectsContinue ? "expects " : "") + (head.contentLength ? "length" : ""));
+    }
+    return 0;
+}

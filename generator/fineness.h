@@ -8,6 +8,9 @@ namespace farol::generator {
 struct Fineness {
     double error;     ///< most distance between mesh and surface, object space, > 0
     double fullTurn;  ///< least divisions of a full turn, whatever the error: for shading, >= 8
+    /// Least divisions of a straight side that narrows (cone, frustum): texture coordinates and
+    /// vertex lighting bend there although the surface does not. >= 1.
+    double straightSide = 1;
 };
 
 /// Most divisions that are chosen; finer wishes are capped.

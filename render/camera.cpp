@@ -6,20 +6,36 @@
 namespace farol::render {
 namespace {
 
-/// Sees all of the box from front right above, near and far close round it.
-scene::Camera framing(const Box& bounds, double aspect) {
+/// A sphere round all that there is; of radius 1 about the origin where there is nothing.
+struct Ball {
+    glm::dvec3 center{0.0};
+    double radius = 1.0;
+};
+
+Ball ballOf(const Box& bounds) {
+    if (bounds.empty()) return {};
+    const double radius = glm::length(bounds.max - bounds.min) * 0.5;
+    return {(bounds.min + bounds.max) * 0.5, radius > 1e-9 ? radius : 1.0};
+}
+
+/// Sees all of the ball from front right above.
+scene::Camera framing(const Ball& ball, double aspect) {
     scene::Camera camera;
-    const glm::dvec3 center = bounds.empty() ? glm::dvec3(0.0) : (bounds.min + bounds.max) * 0.5;
-    double radius = bounds.empty() ? 1.0 : glm::length(bounds.max - bounds.min) * 0.5;
-    if (!(radius > 1e-9)) radius = 1.0;
     const double halfUp = glm::radians(camera.fovDeg) / 2.0;
     const double halfAcross = std::atan(std::tan(halfUp) * aspect);
-    const double distance = 1.05 * radius / std::sin(std::min(halfUp, halfAcross));
-    camera.target = center;
-    camera.eye = center + distance * glm::normalize(glm::dvec3(0.5, 0.45, 1.0));
-    camera.near = std::max(distance - 1.1 * radius, distance * 1e-3);
-    camera.far = distance + 2.0 * radius;
+    const double distance = 1.05 * ball.radius / std::sin(std::min(halfUp, halfAcross));
+    camera.target = ball.center;
+    camera.eye = ball.center + distance * glm::normalize(glm::dvec3(0.5, 0.45, 1.0));
     return camera;
+}
+
+/// Puts near and far close round the ball as seen from the eye, where nobody gave them.
+void fitDepth(scene::Camera& camera, const Ball& ball, const PictureOptions& options) {
+    const double distance = glm::length(camera.eye - ball.center);
+    camera.far = options.far.value_or(distance + 2.0 * ball.radius);
+    camera.near = options.near.value_or(std::max(
+        distance - 1.1 * ball.radius, 1e-3 * std::min(camera.far, distance + ball.radius)));
+    if (!options.near && camera.near >= camera.far) camera.near = 1e-3 * camera.far;
 }
 
 [[noreturn]] void fail(const std::string& message, const std::string& field) {
@@ -30,7 +46,8 @@ scene::Camera framing(const Box& bounds, double aspect) {
 
 scene::Camera chooseCamera(const scene::Scene& scene, const PictureOptions& options,
                            const Box& bounds, double aspect) {
-    scene::Camera camera = scene.camera ? *scene.camera : framing(bounds, aspect);
+    const Ball ball = ballOf(bounds);
+    scene::Camera camera = scene.camera ? *scene.camera : framing(ball, aspect);
     if (options.target) camera.target = *options.target;
     if (options.up) camera.up = *options.up;
     if (options.fovDeg) camera.fovDeg = *options.fovDeg;
@@ -53,6 +70,7 @@ scene::Camera chooseCamera(const scene::Scene& scene, const PictureOptions& opti
                                                            std::sin(elevation),
                                                            std::cos(elevation) * std::cos(azimuth));
     }
+    if (!scene.camera) fitDepth(camera, ball, options);
     const glm::dvec3 view = camera.target - camera.eye;
     const double scale = std::max({1e-30, glm::length(camera.target), glm::length(camera.eye)});
     if (!(glm::length(view) > 1e-12 * scale))

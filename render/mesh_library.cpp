@@ -65,9 +65,9 @@ std::shared_ptr<const MeshData> MeshLibrary::get(const scene::Model& model,
                                                  const scene::Assets& assets,
                                                  const generator::Fineness& fineness) {
     // Both numbers stand on ladders, so the text is exact enough for a key.
-    const std::string key = keyOf(model, assets) + "\n" +
-                            std::to_string(std::log2(fineness.error)) + ' ' +
-                            std::to_string(fineness.fullTurn);
+    const std::string key =
+        keyOf(model, assets) + "\n" + std::to_string(std::log2(fineness.error)) + ' ' +
+        std::to_string(fineness.fullTurn) + ' ' + std::to_string(fineness.straightSide);
     if (auto known = find(key)) return known;
     return keep(key,
                 generator::generate(generator::refine(model, assets, fineness), assets, model.uv));

@@ -184,7 +184,8 @@ class Planner {
         DrawItem item;
         item.mesh = instance.open
                         ? meshes_.get(*instance.model, assets_,
-                                      fineness(instance.mesh->bounds, viewFromObject, sight_))
+                                      fineness(instance.mesh->bounds, viewFromObject,
+                                               instance.model->texture.has_value(), sight_))
                         : instance.mesh;
         item.viewFromObject = glm::mat4(viewFromObject);
         // Cofactors: the inverse transpose without its division, so flattened objects work too.
@@ -225,7 +226,7 @@ class Planner {
         if (lines && !model.material) item.diffuse = glm::vec3(1.0F);
         if (!model.texture || lines || plan_.layer != Layer::color) return;
         // Unlit, a texture is its own picture: nothing modulates it.
-        if (!plan_.lit && !model.material) item.diffuse = glm::vec3(1.0F);
+        if (!plan_.lit) item.diffuse = glm::vec3(1.0F);
         item.mapping = model.texture->mapping;
         item.planeS = glm::vec4(model.texture->planeS);
         item.planeT = glm::vec4(model.texture->planeT);

@@ -32,7 +32,7 @@ double shadingDivisions(scene::Shading shading, double radiusPx) {
 
 }  // namespace
 
-generator::Fineness fineness(const Box& bounds, const glm::dmat4& viewFromObject,
+generator::Fineness fineness(const Box& bounds, const glm::dmat4& viewFromObject, bool textured,
                              const Sight& sight) {
     const glm::dmat3 linear(viewFromObject);
     // Singular values: square roots of the eigenvalues of the Gram matrix. The Frobenius norm
@@ -64,9 +64,13 @@ generator::Fineness fineness(const Box& bounds, const glm::dmat4& viewFromObject
     fine.error = std::exp2(std::floor(2.0 * std::log2(errorObject)) / 2.0);
     const double radius = glm::length(bounds.max - bounds.min) / 2.0 * largest;
     // The plan's error option moves the shading's bound along: error falls with the square.
-    const double wish =
+    double wish =
         shadingDivisions(sight.shading, radius * focalPx / depth) * std::sqrt(0.25 / sight.errorPx);
+    // Coordinates are linear within a triangle: at poles and apexes that shows first.
+    if (textured) wish *= 2.0;
     fine.fullTurn = generator::ladder(std::clamp(wish, 8.0, generator::kMostDivisions));
+    // Eight carry vertex lighting and normals round an apex; a texture wants them finer.
+    fine.straightSide = textured ? fine.fullTurn : std::min(8.0, fine.fullTurn);
     return fine;
 }
 

@@ -22,7 +22,7 @@ struct Sight {
 /// viewFromObject, so that no point of its surface moves by more than sight.errorPx on the screen
 /// (docs/accuracy.md), rounded down to a ladder of half powers of two so that an orbiting camera
 /// meets the same meshes again. Curved shapes also get the divisions that their shading needs.
-generator::Fineness fineness(const Box& bounds, const glm::dmat4& viewFromObject,
+generator::Fineness fineness(const Box& bounds, const glm::dmat4& viewFromObject, bool textured,
                              const Sight& sight);
 
 }  // namespace farol::render

@@ -21,10 +21,11 @@ Entry coneEntry() {
             },
             nullptr,
             [](const Call& call, const std::string&, const Fineness& fineness) {
-                // Straight along its side: the height needs no divisions for its shape.
+                // Straight along its side: the height needs no divisions for its shape, but for its
+                // shading.
                 return std::vector<double>{
                     circleDivisions(call.length(0), fineness.error, fineness),
-                    call.shape->arguments[3].fallback};
+                    ladder(fineness.straightSide)};
             }};
 }
 

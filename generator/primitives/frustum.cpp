@@ -132,7 +132,7 @@ Entry frustumEntry() {
         [](const Call& call, const std::string&, const Fineness& fineness) {
             const double radius = std::max(call.length(0), call.length(1));
             return std::vector<double>{circleDivisions(radius, fineness.error, fineness),
-                                       call.shape->arguments[4].fallback};
+                                       ladder(std::max(1.0, fineness.straightSide))};
         }};
 }
 

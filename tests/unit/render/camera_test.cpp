@@ -109,3 +109,25 @@ TEST_CASE("a camera that sees nothing is refused by name") {
     far.far = 5.0;
     CHECK_THROWS_AS(render::chooseCamera(scene::Scene{}, far, Box{}, 1.0), Error);
 }
+
+TEST_CASE("where a scene has no camera, near and far follow the eye that is asked for") {
+    Box box;
+    box.add(glm::dvec3(-1e7, 0, -1e7));
+    box.add(glm::dvec3(1e7, 0, 1e7));
+    PictureOptions options;
+    options.eye = glm::dvec3(0, 10, 1);
+    options.target = glm::dvec3(0);
+    options.far = 1000.0;
+    const scene::Camera camera = render::chooseCamera(scene::Scene{}, options, box, 1.0);
+    CHECK(camera.near < 10.0);
+    CHECK(camera.far == 1000.0);
+    // As close as one likes to something small.
+    Box small;
+    small.add(glm::dvec3(-1));
+    small.add(glm::dvec3(1));
+    options.far.reset();
+    options.eye = glm::dvec3(0, 0, 1.8);
+    const scene::Camera near = render::chooseCamera(scene::Scene{}, options, small, 1.0);
+    CHECK(near.near < 0.8);
+    CHECK(near.far > 2.8);
+}

@@ -18,7 +18,8 @@ std::string sniff(std::string_view bytes, const std::string& name) {
     using namespace std::string_view_literals;
     if (startsWith(bytes, "\x89PNG\r\n\x1a\n"sv)) return "png";
     if (startsWith(bytes, "\xff\xd8\xff"sv)) return "jpeg";
-    if (startsWith(bytes, "RIFF"sv) && bytes.substr(8, 4) == "WEBP"sv) return "webp";
+    if (startsWith(bytes, "RIFF"sv) && bytes.size() > 12 && startsWith(bytes.substr(8), "WEBP"sv))
+        return "webp";
     if (startsWith(bytes, "BM"sv)) return "bmp";
     if (startsWith(bytes, "GIF8"sv)) return "gif";
     if (startsWith(bytes, "II*\0"sv) || startsWith(bytes, "MM\0*"sv)) return "tiff";

@@ -23,13 +23,6 @@ std::string keyOf(const scene::Model& model, const scene::Assets& assets) {
 
 }  // namespace
 
-std::shared_ptr<const MeshData> MeshLibrary::find(const std::string& key) {
-    const auto found = byKey_.find(key);
-    if (found == byKey_.end()) return nullptr;
-    entries_.splice(entries_.begin(), entries_, found->second);
-    return found->second->data;
-}
-
 std::shared_ptr<const MeshData> MeshLibrary::keep(const std::string& key, generator::Mesh mesh,
                                                   Diagnostics findings) {
     auto data = std::make_shared<MeshData>();
@@ -41,21 +34,13 @@ std::shared_ptr<const MeshData> MeshLibrary::keep(const std::string& key, genera
                               data->mesh.normals.size() * sizeof(glm::vec3) +
                               data->mesh.uvs.size() * sizeof(glm::vec2) +
                               data->mesh.indices.size() * sizeof(std::uint32_t);
-    entries_.push_front({key, data, bytes});
-    byKey_[key] = entries_.begin();
-    bytes_ += bytes;
-    while (bytes_ > maxBytes_ && entries_.size() > 1) {
-        bytes_ -= entries_.back().bytes;
-        byKey_.erase(entries_.back().key);
-        entries_.pop_back();
-    }
-    return data;
+    return meshes_.put(key, std::move(data), bytes);
 }
 
 std::shared_ptr<const MeshData> MeshLibrary::get(const scene::Model& model,
                                                  const scene::Assets& assets) {
     const std::string key = keyOf(model, assets);
-    if (auto known = find(key)) return known;
+    if (const auto* known = meshes_.find(key)) return *known;
     Diagnostics findings;
     generator::Mesh mesh = generator::load(model, assets, &findings);
     return keep(key, std::move(mesh), std::move(findings));
@@ -68,7 +53,7 @@ std::shared_ptr<const MeshData> MeshLibrary::get(const scene::Model& model,
     const std::string key =
         keyOf(model, assets) + "\n" + std::to_string(std::log2(fineness.error)) + ' ' +
         std::to_string(fineness.fullTurn) + ' ' + std::to_string(fineness.straightSide);
-    if (auto known = find(key)) return known;
+    if (const auto* known = meshes_.find(key)) return *known;
     return keep(key,
                 generator::generate(generator::refine(model, assets, fineness), assets, model.uv));
 }

@@ -1,13 +1,12 @@
 #pragma once
 
 #include <cstdint>
-#include <list>
 #include <memory>
 #include <string>
-#include <unordered_map>
 
 #include "generator/mesh.h"
 #include "generator/registry.h"
+#include "render/lru.h"
 #include "scene/assets.h"
 #include "scene/scene.h"
 
@@ -34,7 +33,7 @@ struct MeshData {
 /// Meshes by source, kept within a bound of bytes, least recently used first out.
 class MeshLibrary {
   public:
-    explicit MeshLibrary(std::size_t maxBytes) : maxBytes_(maxBytes) {}
+    explicit MeshLibrary(std::size_t maxBytes) : meshes_(maxBytes) {}
     /// The mesh of a resolved model. Throws as generator::load does.
     std::shared_ptr<const MeshData> get(const scene::Model& model, const scene::Assets& assets);
     /// The mesh of an open model (generator::isOpen), as fine as asked.
@@ -42,17 +41,9 @@ class MeshLibrary {
                                         const generator::Fineness& fineness);
 
   private:
-    std::shared_ptr<const MeshData> find(const std::string& key);
     std::shared_ptr<const MeshData> keep(const std::string& key, generator::Mesh mesh,
                                          Diagnostics findings = {});
-    struct Entry {
-        std::string key;
-        std::shared_ptr<const MeshData> data;
-        std::size_t bytes;
-    };
-    std::size_t maxBytes_, bytes_ = 0;
-    std::list<Entry> entries_;  ///< most recent first
-    std::unordered_map<std::string, std::list<Entry>::iterator> byKey_;
+    LruCache<std::string, std::shared_ptr<const MeshData>> meshes_;
 };
 
 }  // namespace farol::render

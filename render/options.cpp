@@ -6,14 +6,16 @@
 #include <cmath>
 
 #include "scene/text.h"
+#include "scene/words.h"
 
 namespace farol::render {
 namespace {
 
 [[noreturn]] void outOfRange(const std::string& name, const std::string& value,
                              const std::string& range) {
-    throw Error("option.range", name + "=" + value + " is not valid: " + name + " takes " + range,
-                {}, name);
+    throw Error("option.range",
+                name + "=" + scene::shown(value) + " is not valid: " + name + " takes " + range, {},
+                name);
 }
 
 double parseNumber(const std::string& name, const std::string& text, double min, double max,

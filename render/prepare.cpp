@@ -134,16 +134,8 @@ std::shared_ptr<const Prepared> PreparedCache::get(const Job& job) {
     if (job.identity.empty()) return std::make_shared<const Prepared>(prepare(job));
     const std::string key = job.identity + '\n' + job.name + '\n' + (job.strict ? 's' : 'l') +
                             job.options.entity.value_or("");
-    const auto found =
-        std::find_if(kept_.begin(), kept_.end(), [&](const auto& one) { return one.first == key; });
-    if (found != kept_.end()) {
-        kept_.splice(kept_.begin(), kept_, found);
-        return kept_.front().second;
-    }
-    auto prepared = std::make_shared<const Prepared>(prepare(job));
-    kept_.emplace_front(key, prepared);
-    if (kept_.size() > most_) kept_.pop_back();
-    return prepared;
+    if (const auto* known = kept_.find(key)) return *known;
+    return kept_.put(key, std::make_shared<const Prepared>(prepare(job)), 1);
 }
 
 }  // namespace farol::render

@@ -1,10 +1,9 @@
 #pragma once
 
-#include <list>
 #include <memory>
 #include <string>
-#include <utility>
 
+#include "render/lru.h"
 #include "render/renderer.h"
 #include "scene/scene.h"
 
@@ -25,13 +24,12 @@ Prepared prepare(const Job& job);
 /// first out. Jobs without an identity are read anew.
 class PreparedCache {
   public:
-    explicit PreparedCache(std::size_t most) : most_(most) {}
+    explicit PreparedCache(std::size_t most) : kept_(most) {}
     /// Throws as prepare does; what is refused is not kept.
     std::shared_ptr<const Prepared> get(const Job& job);
 
   private:
-    std::size_t most_;
-    std::list<std::pair<std::string, std::shared_ptr<const Prepared>>> kept_;  ///< latest first
+    LruCache<std::string, std::shared_ptr<const Prepared>> kept_;
 };
 
 /// Throws Error with all of `diagnostics` when one is an error; in strict, warnings are.

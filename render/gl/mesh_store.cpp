@@ -82,19 +82,10 @@ GpuMesh upload(const Api& api, const generator::Mesh& mesh, bool flat) {
 
 const GpuMesh& MeshStore::get(const MeshData& data, bool flat) {
     const Key key{data.id, flat};
-    if (const auto found = byKey_.find(key); found != byKey_.end()) {
-        entries_.splice(entries_.begin(), entries_, found->second);
-        return found->second->mesh;
-    }
-    entries_.push_front({key, upload(api_, data.mesh, flat)});
-    byKey_[key] = entries_.begin();
-    bytes_ += entries_.front().mesh.bytes;
-    while (bytes_ > maxBytes_ && entries_.size() > 1) {
-        bytes_ -= entries_.back().mesh.bytes;
-        byKey_.erase(entries_.back().key);
-        entries_.pop_back();
-    }
-    return entries_.front().mesh;
+    if (const GpuMesh* known = meshes_.find(key)) return *known;
+    GpuMesh mesh = upload(api_, data.mesh, flat);
+    const std::size_t bytes = mesh.bytes;
+    return meshes_.put(key, std::move(mesh), bytes);
 }
 
 }  // namespace farol::render::gl

@@ -1,10 +1,9 @@
 #pragma once
 
 #include <cstdint>
-#include <list>
-#include <map>
 
 #include "render/gl/objects.h"
+#include "render/lru.h"
 #include "render/mesh_library.h"
 
 namespace farol::render::gl {
@@ -22,7 +21,7 @@ struct GpuMesh {
 /// Meshes by MeshData::id, kept within a bound of bytes, least recently used first out.
 class MeshStore {
   public:
-    MeshStore(const Api& api, std::size_t maxBytes) : api_(api), maxBytes_(maxBytes) {}
+    MeshStore(const Api& api, std::size_t maxBytes) : api_(api), meshes_(maxBytes) {}
     /// Valid until the next call.
     const GpuMesh& get(const MeshData& data, bool flat);
 
@@ -32,14 +31,8 @@ class MeshStore {
         bool flat;
         auto operator<=>(const Key&) const = default;
     };
-    struct Entry {
-        Key key;
-        GpuMesh mesh;
-    };
     const Api& api_;
-    std::size_t maxBytes_, bytes_ = 0;
-    std::list<Entry> entries_;  ///< most recent first
-    std::map<Key, std::list<Entry>::iterator> byKey_;
+    LruCache<Key, GpuMesh> meshes_;
 };
 
 }  // namespace farol::render::gl

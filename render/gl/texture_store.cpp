@@ -30,44 +30,26 @@ void uploadLevel(const Api& api, GLenum target, GLint level, const Image& image,
 
 }  // namespace
 
-TextureStore::TextureStore(const Api& api, std::size_t maxBytes) : api_(api), maxBytes_(maxBytes) {
+TextureStore::TextureStore(const Api& api, std::size_t maxBytes) : api_(api), textures_(maxBytes) {
     api_.GetFloatv(kMaxAnisotropy, &maxAnisotropy_);
     if (api_.GetError() != GL_NO_ERROR) maxAnisotropy_ = 1.0F;
-}
-
-const TextureStore::Entry* TextureStore::find(const std::string& key) {
-    const auto found = byKey_.find(key);
-    if (found == byKey_.end()) return nullptr;
-    entries_.splice(entries_.begin(), entries_, found->second);
-    return &entries_.front();
-}
-
-GLuint TextureStore::keep(Entry entry) {
-    bytes_ += entry.bytes;
-    entries_.push_front(std::move(entry));
-    byKey_[entries_.front().key] = entries_.begin();
-    while (bytes_ > maxBytes_ && entries_.size() > 1) {
-        bytes_ -= entries_.back().bytes;
-        byKey_.erase(entries_.back().key);
-        entries_.pop_back();
-    }
-    return entries_.front().texture.name();
 }
 
 GLuint TextureStore::get(const std::string& key, scene::Filter filter,
                          const std::function<Image()>& decode) {
     const std::string full = std::to_string(static_cast<int>(filter)) + '\n' + key;
-    if (const Entry* entry = find(full)) return entry->texture.name();
+    if (const Texture* known = textures_.find(full)) return known->name();
     const Image image = decode();
-    Entry entry{full, Texture(api_), image.pixels.size()};
-    api_.BindTexture(GL_TEXTURE_2D, entry.texture.name());
+    Texture texture(api_);
+    std::size_t bytes = image.pixels.size();
+    api_.BindTexture(GL_TEXTURE_2D, texture.name());
     uploadLevel(api_, GL_TEXTURE_2D, 0, image, true);
     const bool mipmaps = filter == scene::Filter::mipmap || filter == scene::Filter::anisotropic;
     GLint level = 0;
     if (mipmaps)
         for (const Image& smaller : buildMipmaps(image)) {
             uploadLevel(api_, GL_TEXTURE_2D, ++level, smaller, true);
-            entry.bytes += smaller.pixels.size();
+            bytes += smaller.pixels.size();
         }
     api_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, level);
     const GLint magnify = filter == scene::Filter::nearest ? GL_NEAREST : GL_LINEAR;
@@ -79,23 +61,24 @@ GLuint TextureStore::get(const std::string& key, scene::Filter filter,
     if (filter == scene::Filter::anisotropic)
         api_.TexParameterf(GL_TEXTURE_2D, kTextureAnisotropy,
                            std::min(kWantedAnisotropy, maxAnisotropy_));
-    return keep(std::move(entry));
+    return textures_.put(full, std::move(texture), bytes).name();
 }
 
 GLuint TextureStore::getCube(const std::string& key, const std::function<Image()>& decode) {
     const std::string full = "cube\n" + key;
-    if (const Entry* entry = find(full)) return entry->texture.name();
+    if (const Texture* known = textures_.find(full)) return known->name();
     const std::array<Image, 6> faces = cutCross(decode());
-    Entry entry{full, Texture(api_), 0};
-    api_.BindTexture(GL_TEXTURE_CUBE_MAP, entry.texture.name());
+    Texture texture(api_);
+    std::size_t bytes = 0;
+    api_.BindTexture(GL_TEXTURE_CUBE_MAP, texture.name());
     for (GLenum face = 0; face < 6; ++face) {
         uploadLevel(api_, GL_TEXTURE_CUBE_MAP_POSITIVE_X + face, 0, faces[face], false);
-        entry.bytes += faces[face].pixels.size();
+        bytes += faces[face].pixels.size();
     }
     api_.TexParameteri(GL_TEXTURE_CUBE_MAP, GL_TEXTURE_MAX_LEVEL, 0);
     api_.TexParameteri(GL_TEXTURE_CUBE_MAP, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     api_.TexParameteri(GL_TEXTURE_CUBE_MAP, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-    return keep(std::move(entry));
+    return textures_.put(full, std::move(texture), bytes).name();
 }
 
 }  // namespace farol::render::gl

@@ -1,12 +1,11 @@
 #pragma once
 
 #include <functional>
-#include <list>
-#include <map>
 #include <string>
 
 #include "render/gl/objects.h"
 #include "render/image.h"
+#include "render/lru.h"
 #include "scene/scene.h"
 
 namespace farol::render::gl {
@@ -22,19 +21,9 @@ class TextureStore {
     GLuint getCube(const std::string& key, const std::function<Image()>& decode);
 
   private:
-    struct Entry {
-        std::string key;
-        Texture texture;
-        std::size_t bytes;
-    };
-    GLuint keep(Entry entry);
-    const Entry* find(const std::string& key);
-
     const Api& api_;
-    std::size_t maxBytes_, bytes_ = 0;
     float maxAnisotropy_ = 1.0F;
-    std::list<Entry> entries_;  ///< most recent first
-    std::map<std::string, std::list<Entry>::iterator> byKey_;
+    LruCache<std::string, Texture> textures_;
 };
 
 }  // namespace farol::render::gl

@@ -45,6 +45,16 @@ TEST_CASE("JPEG and WebP are read back as nearly the same picture") {
         REQUIRE(std::abs(int{image.pixels[i]} - int{back.pixels[i]}) <= 12);  // lossy at 90
 }
 
+TEST_CASE("the head of a picture alone is refused") {
+    using namespace std::string_literals;
+    for (const std::string& head :
+         {"RIFF"s, "RIFF\0\0\0\0"s, "RIFF\0\0\0\0WEBP"s, "\x89PNG\r\n\x1a\n"s, "\xff\xd8\xff"s,
+          "BM"s, "GIF89a"s, "II*\0"s, "MM\0*"s, "#?RADIANCE\n"s, "P6\n"s, "x"s}) {
+        INFO(head);
+        CHECK_THROWS_AS(render::decodeImage(head, "a.tga"), Error);
+    }
+}
+
 TEST_CASE("bytes that are no picture are refused by name and place") {
     const std::string png = render::encodePng(noise(40, 40, true));
     const std::string bytes = GENERATE_COPY(

@@ -83,6 +83,16 @@ TEST_CASE("every option takes its values and refuses the rest by name and range"
     }
 }
 
+TEST_CASE("messages quote a bounded part of a value") {
+    PictureOptions options;
+    try {
+        render::applyOption(options, "target", std::string(100'000, 'x'));
+        FAIL("was accepted");
+    } catch (const Error& error) {
+        CHECK(std::string(error.what()).size() < 200);
+    }
+}
+
 TEST_CASE("an unknown option is named, with the nearest known one") {
     PictureOptions options;
     try {

@@ -4,6 +4,7 @@
 #include <OpenImageIO/imageio.h>
 
 #include <cctype>
+#include <exception>
 
 namespace farol::render {
 namespace {
@@ -83,14 +84,20 @@ class Reader {
     std::unique_ptr<OIIO::ImageInput> input_;
 };
 
-}  // namespace
-
-ImageSize imageSize(std::string_view bytes, const std::string& name, const Location& where) {
-    const Reader reader(bytes, name, where);
-    return {reader.spec().width, reader.spec().height};
+/// What `read` gives. Some decoders throw on what they cannot hold: a fault of the file as well.
+template <class Read>
+auto guarded(const std::string& name, const Location& where, const Read& read) {
+    try {
+        return read();
+    } catch (const Error&) {
+        throw;
+    } catch (const std::exception& error) {
+        throw Error("image.unreadable",
+                    "'" + name + "' cannot be read as a picture: " + error.what(), where);
+    }
 }
 
-Image decodeImage(std::string_view bytes, const std::string& name, const Location& where) {
+Image decode(std::string_view bytes, const std::string& name, const Location& where) {
     Reader reader(bytes, name, where);
     const int channels = std::min(reader.spec().nchannels, 4);
     const std::vector<std::uint8_t> raw = reader.read(channels);
@@ -108,6 +115,19 @@ Image decodeImage(std::string_view bytes, const std::string& name, const Locatio
         to[3] = channels == 4 ? from[3] : channels == 2 ? from[1] : std::uint8_t{255};
     }
     return image;
+}
+
+}  // namespace
+
+ImageSize imageSize(std::string_view bytes, const std::string& name, const Location& where) {
+    return guarded(name, where, [&] {
+        const Reader reader(bytes, name, where);
+        return ImageSize{reader.spec().width, reader.spec().height};
+    });
+}
+
+Image decodeImage(std::string_view bytes, const std::string& name, const Location& where) {
+    return guarded(name, where, [&] { return decode(bytes, name, where); });
 }
 
 }  // namespace farol::render

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "scene/text.h"
+#include "scene/words.h"
 
 namespace farol::server {
 namespace {
@@ -19,7 +20,7 @@ Error fault(const std::string& code, const std::string& name, const std::string&
 bool readFlag(const std::string& name, const std::string& value) {
     if (value == "1" || value == "true") return true;
     if (value == "0" || value == "false") return false;
-    throw fault("option.range", name, name + " must be 0 or 1, not \"" + value + "\"");
+    throw fault("option.range", name, name + " must be 0 or 1, not " + scene::quoted(value));
 }
 
 bool isPictureOption(const std::string& name) {
@@ -34,7 +35,7 @@ bool isPictureOption(const std::string& name) {
     if (rules.picture)
         for (const render::OptionSpec& spec : render::optionSpecs()) known.push_back(spec.name);
     const std::string near = scene::didYouMean(name, known);
-    std::string message = "there is no parameter \"" + name + "\" here";
+    std::string message = "there is no parameter " + scene::quoted(name) + " here";
     if (!near.empty()) message += "; did you mean \"" + near + "\"?";
     throw fault("option.unknown", name, message);
 }
@@ -51,8 +52,9 @@ std::string textOf(const std::string& name, const json& value) {
         }
         if (!joined.empty() || value.empty()) return joined;
     }
-    throw fault("option.syntax", name,
-                "the option \"" + name + "\" must be text, a number, true, false or numbers");
+    throw fault(
+        "option.syntax", name,
+        "the option " + scene::quoted(name) + " must be text, a number, true, false or numbers");
 }
 
 http::Fields fieldsOf(const std::string& text) {
@@ -97,7 +99,7 @@ Parameters readParameters(const http::Fields& query, const ParameterRules& rules
         for (const auto& [name, value] : fields) {
             try {
                 if (!seen.insert(name).second)
-                    throw fault("option.repeated", name, "\"" + name + "\" is given twice");
+                    throw fault("option.repeated", name, scene::quoted(name) + " is given twice");
                 applyOne(out, rules, name, value);
             } catch (const Error& error) {
                 const Diagnostics& found = error.diagnostics();
@@ -119,7 +121,7 @@ int wholeNumber(const std::string& name, const std::string& value, int min, int 
     if (failed != std::errc{} || end != value.data() + value.size() || number < min || number > max)
         throw fault("option.range", name,
                     name + " must be a whole number in " + std::to_string(min) + ".." +
-                        std::to_string(max) + ", not \"" + value + "\"");
+                        std::to_string(max) + ", not " + scene::quoted(value));
     return number;
 }
 

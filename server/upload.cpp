@@ -4,6 +4,7 @@
 #include <map>
 
 #include "scene/assets.h"
+#include "scene/words.h"
 #include "server/multipart.h"
 
 namespace farol::server {
@@ -27,7 +28,7 @@ std::string pathOf(const Part& part) {
             return static_cast<unsigned char>(c) < 0x20;
         }))
         throw Error("http.multipart",
-                    "The file name \"" + path + "\" of a part is not a relative path.");
+                    "The file name " + scene::quoted(path) + " of a part is not a relative path.");
     return path;
 }
 
@@ -49,7 +50,7 @@ Upload fromParts(std::vector<Part> parts) {
         if (part.name == "scene" && part.fileName.empty()) part.fileName = "scene.xml";
         const std::string path = pathOf(part);
         if (files.count(path) != 0)
-            throw Error("http.multipart", "The file \"" + path + "\" is there twice.");
+            throw Error("http.multipart", "The file " + scene::quoted(path) + " is there twice.");
         if (part.name == "scene") {
             if (found) throw Error("http.multipart", "There are two parts named \"scene\".");
             found = true;
@@ -90,7 +91,7 @@ Upload readUpload(const http::Request& request, http::Body& body, std::size_t ma
     } else {
         throw Error("http.media-type",
                     "A scene is sent as application/xml, text/xml or multipart/form-data, not " +
-                        type + ".");
+                        scene::shown(type) + ".");
     }
     if (upload.job.xml.empty()) throw Error("xml.empty", "The scene is empty: there is no XML.");
     return upload;

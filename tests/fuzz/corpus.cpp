@@ -48,7 +48,7 @@ std::vector<std::string> readCorpus(const std::vector<std::string>& paths,
     std::set<std::string> known;
     for (const fs::path& file : files) {
         if (fs::file_size(file) > kMaxInput) {
-            std::printf("left out, over %zu bytes: %s\n", kMaxInput, file.c_str());
+            std::fprintf(stderr, "left out, over %zu bytes: %s\n", kMaxInput, file.c_str());
             continue;
         }
         std::string content = contentOf(file);

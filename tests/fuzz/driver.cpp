@@ -18,7 +18,6 @@
 #include <cstring>
 #include <ctime>
 #include <exception>
-#include <new>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -48,17 +47,18 @@ struct Settings {
     /// as a hang: none needs a hundredth of it.
     std::uint64_t patience = 30;
     std::string out = ".";
+    int child = -1;  ///< set in the child: the descriptor of the shared memory
     bool dictionary = false;
     std::vector<std::string> corpus;
 };
 
 /// What the child leaves to the parent, whatever becomes of it.
 struct Shared {
-    std::uint64_t runs = 0, kept = 0, reached = 0;
-    double cpuSeconds = 0;
-    std::size_t size = 0;
-    bool finished = false;
-    char input[kMaxInput] = {};
+    std::uint64_t runs, kept, reached;
+    double cpuSeconds;
+    std::size_t size;
+    bool finished;
+    char input[kMaxInput];
 };
 
 std::set<std::string, std::less<>>& reachedNow() {
@@ -126,7 +126,7 @@ int childMain(const Settings& settings, std::vector<std::string> seeds, Shared& 
         fuzz(settings, std::move(seeds), shared);
     } catch (const std::exception& error) {
         std::fprintf(stderr, "%s\n", error.what());
-        return kFindingCode;
+        _exit(kFindingCode);  // no search for leaks: it would hide this finding's code
     }
     const itimerval off{};
     setitimer(ITIMER_PROF, &off, nullptr);
@@ -171,6 +171,8 @@ Settings readSettings(int count, char** words) {
                 settings.runs = readNumber(word, value);
             else if (word == "--seed")
                 settings.seed = readNumber(word, value);
+            else if (word == "--child")  // the driver's own: see run
+                settings.child = static_cast<int>(readNumber(word, value));
             else if (word == "--patience")
                 settings.patience = readNumber(word, value);
             else
@@ -197,19 +199,35 @@ void printDictionary() {
     }
 }
 
-int run(const Settings& settings) {
-    std::vector<std::string> seeds = readCorpus(settings.corpus, target().endings);
-    if (seeds.empty()) throw std::runtime_error("the corpus holds no seed for this target");
-    void* memory =
-        mmap(nullptr, sizeof(Shared), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+Shared& mapShared(int descriptor) {
+    void* memory = mmap(nullptr, sizeof(Shared), PROT_READ | PROT_WRITE, MAP_SHARED, descriptor, 0);
     if (memory == MAP_FAILED) throw std::runtime_error("no shared memory");
-    Shared& shared = *new (memory) Shared;
-    const std::size_t read = seeds.size();
+    return *static_cast<Shared*>(memory);  // a new file's zeros are its first state
+}
+
+int runChild(const Settings& settings) {
+    return childMain(settings, readCorpus(settings.corpus, target().endings),
+                     mapShared(settings.child));
+}
+
+int run(const Settings& settings, int count, char** words) {
+    const std::size_t read = readCorpus(settings.corpus, target().endings).size();
+    if (read == 0) throw std::runtime_error("the corpus holds no seed for this target");
+    const int descriptor = memfd_create("fuzz", 0);
+    if (descriptor < 0 || ftruncate(descriptor, sizeof(Shared)) != 0)
+        throw std::runtime_error("no shared memory");
+    Shared& shared = mapShared(descriptor);
+    std::vector<char*> arguments(words, words + count);
+    std::string flag = "--child", number = std::to_string(descriptor);
+    arguments.insert(arguments.end(), {flag.data(), number.data(), nullptr});
     std::fflush(nullptr);
+    // Started anew: libraries have threads from the start, which a fork alone would not have.
     const pid_t child = fork();
     if (child < 0) throw std::runtime_error("no child process");
-    // exit, not _exit: the leak checker runs at exit.
-    if (child == 0) std::exit(childMain(settings, std::move(seeds), shared));
+    if (child == 0) {
+        execv("/proc/self/exe", arguments.data());
+        _exit(127);
+    }
     int status = 0;
     while (waitpid(child, &status, 0) < 0)
         if (errno != EINTR) throw std::runtime_error("the child process is lost");
@@ -240,7 +258,8 @@ int main(int count, char** words) {
     using namespace farol::fuzz;
     try {
         const Settings settings = readSettings(count, words);
-        if (!settings.dictionary) return run(settings);
+        if (settings.child >= 0) return runChild(settings);
+        if (!settings.dictionary) return run(settings, count, words);
         printDictionary();
         return 0;
     } catch (const std::exception& error) {

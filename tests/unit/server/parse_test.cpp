@@ -140,6 +140,17 @@ TEST_CASE("parameters are checked against the route's own names") {
     for (const char* bad :
          {"[]", "3", "{", "{\"width\": null}", "{\"eye\": [1, \"a\"]}", "{\"width\": {}}", "\xFF"})
         CHECK_THROWS_AS(readParameters({}, rules, bad), Error);
+    const std::string longText(10'000, 'x');
+    for (const http::Fields& query :
+         {http::Fields{{longText, "1"}}, http::Fields{{"strict", longText}},
+          http::Fields{{"width", longText}}}) {
+        try {
+            readParameters(query, rules);
+            FAIL("was accepted");
+        } catch (const Error& error) {
+            CHECK(std::string(error.what()).size() < 300);
+        }
+    }
     CHECK_THROWS_AS(wholeNumber("page", "1x", 1, 9), Error);
     CHECK_THROWS_AS(wholeNumber("page", "10", 1, 9), Error);
     CHECK(wholeNumber("page", "9", 1, 9) == 9);

@@ -32,6 +32,21 @@ std::string sniff(std::string_view bytes, const std::string& name) {
     return ending == "tga" ? "targa" : "";
 }
 
+/// True if every chunk of a PNG lies within the file, up to its end mark. libpng's error for a file
+/// that ends early jumps over the destructors of OpenImageIO's reader, which then loses memory.
+bool isWholePng(std::string_view bytes) {
+    constexpr std::size_t kAround = 12;  // length, type and checksum
+    for (std::size_t at = 8; bytes.size() - at >= kAround;) {
+        std::size_t length = 0;
+        for (std::size_t i = 0; i < 4; ++i)
+            length = length << 8U | static_cast<unsigned char>(bytes[at + i]);
+        if (length > bytes.size() - at - kAround) return false;
+        if (bytes.substr(at + 4, 4) == "IEND") return true;
+        at += kAround + length;
+    }
+    return false;
+}
+
 /// An opened picture file: its head is read and within bounds.
 class Reader {
   public:
@@ -45,6 +60,7 @@ class Reader {
             throw fault(bytes.empty()
                             ? "the file is empty"
                             : "it is none of PNG, JPEG, WebP, BMP, TGA, GIF, TIFF, PNM, HDR");
+        if (format == "png" && !isWholePng(bytes)) throw fault("the file is cut off");
         input_ = OIIO::ImageInput::create(format, false, nullptr, &proxy_);
         if (!input_) throw fault("this build has no decoder for " + format);
         OIIO::ImageSpec config;

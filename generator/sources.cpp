@@ -4,6 +4,7 @@
 
 #include "scene/embedded.h"
 #include "scene/text.h"
+#include "scene/words.h"
 
 namespace farol {
 std::span<const EmbeddedFile> builtin();  // made by cmake/embed.cmake
@@ -41,7 +42,8 @@ std::string readSource(const std::string& path, const scene::Assets& assets) {
     if (const auto found = scene::locate(assets, path, {}, unheard))
         if (auto bytes = assets.read(*found)) return std::move(*bytes);
     if (const auto bytes = builtinFile(path)) return std::string(*bytes);
-    throw Error("asset.missing", "there is no file \"" + path + "\"" + nearestFile(path, assets));
+    throw Error("asset.missing",
+                "there is no file " + scene::quoted(path) + nearestFile(path, assets));
 }
 
 }  // namespace farol::generator

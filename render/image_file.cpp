@@ -6,6 +6,8 @@
 #include <cctype>
 #include <exception>
 
+#include "render/image_head.h"
+
 namespace farol::render {
 namespace {
 
@@ -32,21 +34,6 @@ std::string sniff(std::string_view bytes, const std::string& name) {
     return ending == "tga" ? "targa" : "";
 }
 
-/// True if every chunk of a PNG lies within the file, up to its end mark. libpng's error for a file
-/// that ends early jumps over the destructors of OpenImageIO's reader, which then loses memory.
-bool isWholePng(std::string_view bytes) {
-    constexpr std::size_t kAround = 12;  // length, type and checksum
-    for (std::size_t at = 8; bytes.size() - at >= kAround;) {
-        std::size_t length = 0;
-        for (std::size_t i = 0; i < 4; ++i)
-            length = length << 8U | static_cast<unsigned char>(bytes[at + i]);
-        if (length > bytes.size() - at - kAround) return false;
-        if (bytes.substr(at + 4, 4) == "IEND") return true;
-        at += kAround + length;
-    }
-    return false;
-}
-
 /// An opened picture file: its head is read and within bounds.
 class Reader {
   public:
@@ -61,6 +48,11 @@ class Reader {
                             ? "the file is empty"
                             : "it is none of PNG, JPEG, WebP, BMP, TGA, GIF, TIFF, PNM, HDR");
         if (format == "png" && !isWholePng(bytes)) throw fault("the file is cut off");
+        if (claimedPixels(format, bytes) > kMaxTexturePixels)
+            throw Error("limit.texture",
+                        "'" + name + "' claims " + std::to_string(claimedPixels(format, bytes)) +
+                            " pixels; at most 64 million are taken",
+                        where);
         input_ = OIIO::ImageInput::create(format, false, nullptr, &proxy_);
         if (!input_) throw fault("this build has no decoder for " + format);
         OIIO::ImageSpec config;

@@ -6,7 +6,7 @@
 namespace farol::fuzz {
 
 const Target& target() {
-    // 64 million pixels are allowed: their decoded bytes and the picture made of them.
+    // 64 million pixels are allowed: a decoder's canvas, its bytes and the picture made of them.
     static const Target made{{"png", "jpg", "webp", "bmp", "tga", "gif", "tif", "ppm", "hdr"},
                              {"IHDR",
                               "IDAT",
@@ -31,7 +31,7 @@ const Target& target() {
                               "\xFF\xD8\xFF",
                               "\xFF\xC4",
                               "\xFF\xDB"},
-                             1024};
+                             1280};
     return made;
 }
 

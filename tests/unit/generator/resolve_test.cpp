@@ -173,3 +173,13 @@ TEST_CASE("textures, background and skybox are found or reported, also in the en
     for (const Diagnostic& one : diagnostics) missing += one.code == "asset.missing" ? 1 : 0;
     CHECK(missing == 4);  // woood.jpg twice, none.png, sky.png
 }
+
+TEST_CASE("messages quote a bounded part of a file's name") {
+    try {
+        generator::generate({"patch", std::string(10'000, 'x') + ".patch"}, scene::BundleAssets());
+        FAIL("was found");
+    } catch (const Error& error) {
+        CHECK(error.code() == "asset.missing");
+        CHECK(std::string(error.what()).size() < 200);
+    }
+}

@@ -47,11 +47,11 @@ TEST_CASE("JPEG and WebP are read back as nearly the same picture") {
 
 TEST_CASE("bytes that are no picture are refused by name and place") {
     const std::string png = render::encodePng(noise(40, 40, true));
-    const std::string bytes = GENERATE_COPY(
-        std::string(), std::string("not a picture"), png.substr(0, 20),
-        png.substr(0, png.size() / 2), std::string("\xff\xd8\xff") + "junk", std::string("GIF89a"),
-        std::string("BM"), std::string("P6 -1 99999 255\n"), std::string("RIFF____WEBP"),
-        std::string("RIFF"), std::string("GIF89a\xff\xd8\xff-ztRNS"));
+    const std::string bytes =
+        GENERATE_COPY(std::string(), std::string("not a picture"), png.substr(0, 20),
+                      png.substr(0, png.size() / 2), std::string("\xff\xd8\xff") + "junk",
+                      std::string("GIF89a"), std::string("BM"), std::string("P6 -1 99999 255\n"),
+                      std::string("RIFF____WEBP"), std::string("RIFF"));
     CAPTURE(bytes.size());
     try {
         render::decodeImage(bytes, "wood.png", {"scene.xml", 3, 7});
@@ -60,6 +60,23 @@ TEST_CASE("bytes that are no picture are refused by name and place") {
         CHECK(error.code() == "image.unreadable");
         CHECK(error.primary().where == Location{"scene.xml", 3, 7});
         CHECK(std::string(error.what()).find("wood.png") != std::string::npos);
+    }
+}
+
+TEST_CASE("a canvas that decoders take memory for at once is refused by the head") {
+    using namespace std::string_literals;
+    const auto [name, bytes] = GENERATE(table<const char*, std::string>({
+        {"a.gif", "GIF89a\xff\xff\xff\xff\0\0\0;"s},
+        {"x.webp", "RIFF\x16\0\0\0WEBPVP8X\x0a\0\0\0\0\0\0\0\xff\xff\0\xff\xff\0"s},
+        {"l.webp", "RIFF\x16\0\0\0WEBPVP8L\x0a\0\0\0\x2f\xff\xff\xff\x0f\0\0\0\0\0"s},
+        {"s.webp", "RIFF\x16\0\0\0WEBPVP8 \x0a\0\0\0\0\0\0\x9d\x01\x2a\xff\x3f\xff\x3f"s},
+    }));
+    CAPTURE(name);
+    try {
+        render::decodeImage(bytes, name);
+        FAIL("was taken for a picture");
+    } catch (const Error& error) {
+        CHECK(error.code() == "limit.texture");
     }
 }
 

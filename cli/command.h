@@ -39,6 +39,8 @@ void addValidate(CLI::App& root, Action& action);
 void addCompare(CLI::App& root, Action& action);
 void addHealth(CLI::App& root, Action& action);
 void addVersion(CLI::App& root, Action& action);
+/// What `serve` starts; not in the help.
+void addWorker(CLI::App& root, Action& action);
 
 /// Lets the option take finite numbers from min to max (CLI::Range lets NaN pass), and its help
 /// say so, with the default.

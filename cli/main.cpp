@@ -47,6 +47,7 @@ int main(int argc, char** argv) {
     addCompare(app, action);
     addHealth(app, action);
     addVersion(app, action);
+    addWorker(app, action);
     for (CLI::App* command : app.get_subcommands({}))
         command->add_flag_callback(
             "--json", [&report] { report.useJson(); },

@@ -41,7 +41,13 @@ void addServe(CLI::App& root, Action& action) {
     add("--port", options->listen.port, "port to listen on; 0: any free one", 0, 65'535);
     command->add_option("--scenes", options->scenesDir, "folder of scenes to serve; default none")
         ->type_name("DIR");
-    add("--workers", options->workers, "pictures drawn at once", 1, 64);
+    add("--workers", options->workers, "processes that draw; 0: one a core, at most 8", 0, 64);
+    add("--recycle", options->recycleAfter, "jobs a process does before it is replaced", 1,
+        1'000'000);
+    add("--worker-memory", options->workerMemoryMiB, "memory of a process, MiB; 0: no cap", 0,
+        1 << 20);
+    addSeconds(*command, "--quarantine", options->quarantine,
+               "how long a scene that ended two processes is refused, s");
     add("--queue", options->queue.waiting,
         "requests that may wait for a worker; 0: four a worker, at least 16", 0, 10'000);
     addSeconds(*command, "--wait", options->queue.wait, "longest wait for a worker, s");

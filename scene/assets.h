@@ -51,6 +51,8 @@ class FolderAssets final : public Assets {
     bool has(const std::string& path) const override;
     std::optional<std::string> read(const std::string& path) const override;
     std::string version(const std::string& path) const override;
+    /// The folder, absolute and without links; empty where there is none.
+    const std::string& root() const { return root_; }
 
   private:
     std::optional<std::string> resolve(const std::string& path) const;

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <map>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "render/renderer.h"
@@ -10,12 +12,12 @@
 /// options, so what stands behind the door may be threads, processes or another machine.
 namespace farol::server {
 
-/// The work cannot be taken or did not end in time; the client may try again.
+/// The work cannot be taken or was not done, through no fault of the client, who may try again.
 class Busy : public std::runtime_error {
   public:
     Busy(std::string code, const std::string& message, int retryAfterS)
         : std::runtime_error(message), code_(std::move(code)), retryAfterS_(retryAfterS) {}
-    const std::string& code() const { return code_; }  ///< busy.queue, busy.deadline, busy.draining
+    const std::string& code() const { return code_; }  ///< busy.*, worker.*
     int retryAfterS() const { return retryAfterS_; }
 
   private:
@@ -35,9 +37,20 @@ struct Done {
     double queueMs = 0;  ///< time waited for a worker
 };
 
+/// Names and values, for /version.
+using Layers = std::vector<std::pair<std::string, std::string>>;
+
 /// Where a backend stands, for readiness and metrics.
 struct BackendState {
     int workers = 0, busy = 0, queued = 0;
+    std::map<std::string, long> restarts;  ///< of workers, by reason, since the start
+    long coalesced = 0;                    ///< pictures answered by one being drawn already
+};
+
+/// What draws and what it is kept in.
+struct BackendFacts {
+    std::string gl;
+    Layers sandbox;  ///< layer -> "on" and the like, or "missing: why"
 };
 
 /// All calls block until done, may come from many threads at once, and throw farol::Error for the
@@ -45,13 +58,17 @@ struct BackendState {
 class Backend {
   public:
     virtual ~Backend() = default;
-    virtual Done<render::Picture> render(const render::Job& job) = 0;
+    /// A job that comes while one of the same `tag` (the picture's entity tag) is being drawn
+    /// shares its picture. Where `tag` is empty, jobs of the same bytes do; the files of a folder
+    /// are not among them.
+    virtual Done<render::Picture> render(const render::Job& job, const std::string& tag) = 0;
     virtual Done<render::SceneReport> inspect(const render::Job& job) = 0;
     virtual Done<std::string> mesh(const MeshJob& job) = 0;
     /// Draws a tiny known scene and checks its pixels. Throws std::runtime_error with the reason
     /// when they are wrong.
     virtual void check() = 0;
     virtual BackendState state() const = 0;
+    virtual BackendFacts facts() const { return {}; }
     /// What draws, for /version and ETags.
     virtual std::string version() const = 0;
 };

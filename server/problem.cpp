@@ -15,7 +15,8 @@ int statusOf(const std::string& code) {
         {"limit.body", 413},          {"http.uri-too-long", 414},
         {"http.media-type", 415},     {"http.content-encoding", 415},
         {"busy.queue", 503},          {"busy.deadline", 503},
-        {"busy.draining", 503},
+        {"busy.draining", 503},       {"worker.crashed", 503},
+        {"worker.killed", 503},       {"worker.quarantine", 503},
     };
     if (const auto found = kExact.find(code); found != kExact.end()) return found->second;
     for (const char* family : {"option.", "http.", "xml."})

@@ -66,4 +66,10 @@ std::string Router::allowed(const std::string& path) const {
     return out.empty() ? out : out + ", OPTIONS";
 }
 
+std::string Router::patternOf(const std::string& path) const {
+    for (const Route& route : routes_)
+        if (match(route.pattern, path)) return route.pattern;
+    return "";
+}
+
 }  // namespace farol::server

@@ -34,6 +34,9 @@ class Router {
     /// The methods that a path answers, HEAD and OPTIONS included: "GET, HEAD, OPTIONS".
     std::string allowed(const std::string& path) const;
 
+    /// The pattern that decides what a path is, "/v1/scenes/{id}"; empty where there is none.
+    std::string patternOf(const std::string& path) const;
+
     const std::vector<Route>& routes() const { return routes_; }
 
   private:

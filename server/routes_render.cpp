@@ -61,6 +61,17 @@ http::Response pictureResponse(Done<render::Picture> done) {
 
 }  // namespace
 
+http::Response Service::drawn(Done<render::Picture> done) {
+    const render::StageTimes& times = done.result.times;
+    metrics_.stage("queue", done.queueMs);
+    metrics_.stage("parse", times.parseMs);
+    metrics_.stage("geometry", times.geometryMs);
+    metrics_.stage("draw", times.drawMs);
+    metrics_.stage("readback", times.readbackMs);
+    metrics_.stage("encode", times.encodeMs);
+    return pictureResponse(std::move(done));
+}
+
 http::Response Service::postRender(const Call& call) {
     const ParameterRules rules{true, true, {}, {}};
     // A fault in the query is told before the body is taken in.
@@ -70,7 +81,7 @@ http::Response Service::postRender(const Call& call) {
     chooseFormat(wanted, call.request.header("accept"));
     upload.job.options = wanted.picture;
     upload.job.strict = wanted.strict;
-    http::Response response = pictureResponse(backend_.render(upload.job));
+    http::Response response = drawn(backend_.render(upload.job, ""));
     response.set("Vary", "Accept");
     response.set("Cache-Control", "no-store");
     return response;
@@ -106,7 +117,7 @@ http::Response Service::getImage(const Call& call, const http::Fields& preset) {
     if (matchesTag(call.request.header("if-none-match"), tag))
         response.status = 304;
     else
-        response = pictureResponse(backend_.render(job));
+        response = drawn(backend_.render(job, tag));
     response.set("ETag", tag);
     response.set("Vary", "Accept");
     return response;

@@ -60,6 +60,7 @@ render::Job Service::jobOf(const ServedScene& scene) const {
     job.name = scene.fileName();
     job.xml = std::move(*xml);
     job.assets = scenes_.assets(scene);
+    job.identity = entityTag({job.xml, scene.version});
     return job;
 }
 

@@ -6,9 +6,10 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <thread>
 
-#include "server/render_backend.h"
 #include "server/server.h"
+#include "server/worker/pool.h"
 
 namespace farol::server {
 namespace {
@@ -24,7 +25,9 @@ void checkOptions(const ServeOptions& options) {
     range("port", options.listen.port, 0, 65535);
     range("threads", options.listen.threads, 1, 1024);
     range("max-connections", options.listen.maxConnections, 1, 100'000);
-    range("workers", options.workers, 1, 64);
+    range("workers", options.workers, 0, 64);
+    range("recycle", options.recycleAfter, 1, 1'000'000);
+    range("worker-memory", static_cast<long>(options.workerMemoryMiB), 0, 1L << 20);
     range("queue", options.queue.waiting, 0, 10'000);
     range("max-body", static_cast<long>(options.maxBodyBytes), 1, 1L << 30);
     std::error_code ignored;
@@ -49,10 +52,20 @@ int serve(const ServeOptions& options) {
     pthread_sigmask(SIG_BLOCK, &signals, nullptr);
     signal(SIGPIPE, SIG_IGN);
 
-    QueueLimits queue = options.queue;
+    worker::PoolOptions pool;
+    pool.workers = options.workers;
+    if (pool.workers == 0)  // a core each: one picture's work is spread over cores in part only
+        pool.workers = std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, 8);
+    pool.recycleAfter = options.recycleAfter;
+    pool.quarantine = std::chrono::ceil<std::chrono::seconds>(options.quarantine);
+    pool.worker.memoryBytes = options.workerMemoryMiB << 20U;
+    if (!options.scenesDir.empty())
+        pool.worker.scenesDir = std::filesystem::canonical(options.scenesDir).string();
+    pool.queue = options.queue;
     // A browser opens six connections at once: fewer places than that would refuse its thumbnails.
-    if (queue.waiting == 0) queue.waiting = std::max(16, 4 * options.workers);
-    RenderBackend backend(options.workers, queue);
+    if (pool.queue.waiting == 0) pool.queue.waiting = std::max(16, 4 * pool.workers);
+    Logger logger;
+    worker::WorkerPool backend(pool, logger);
     ServiceOptions service;
     service.scenesDir = options.scenesDir;
     service.maxBodyBytes = options.maxBodyBytes;

@@ -10,8 +10,11 @@ namespace farol::server {
 /// What `farol serve` is told. The fields' defaults are the documented ones.
 struct ServeOptions {
     http::ListenOptions listen;
-    std::string scenesDir;  ///< empty: no scenes are served
-    int workers = 1;        ///< threads that draw, 1..64
+    std::string scenesDir;                ///< empty: no scenes are served
+    int workers = 0;                      ///< processes that draw, 1..64; 0: one a core, at most 8
+    int recycleAfter = 1'000;             ///< jobs a process does before it is replaced
+    std::size_t workerMemoryMiB = 2'048;  ///< a process may take; 0: no cap
+    std::chrono::milliseconds quarantine{600'000};  ///< of a scene that ended two workers
     QueueLimits queue{0, std::chrono::milliseconds(2'000), std::chrono::milliseconds(10'000)};
     ///< queue.waiting 0: four a worker, at least 16
     std::size_t maxBodyBytes = 16U << 20;

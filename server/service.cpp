@@ -70,6 +70,7 @@ std::vector<Route> Service::routes() {
         {"GET", "/livez", call(&Service::livez)},
         {"GET", "/readyz", call(&Service::readyz)},
         {"GET", "/version", call(&Service::version)},
+        {"GET", "/metrics", call(&Service::metrics)},
         {"POST", "/v1/render", call(&Service::postRender)},
         {"POST", "/v1/validate", call(&Service::postValidate)},
         {"GET", "/v1/scenes", call(&Service::listScenes)},
@@ -144,6 +145,8 @@ void Service::finish(const http::Request& request, http::Response& response) con
 
 void Service::finished(const http::Request& request, const http::Response& response,
                        double milliseconds, bool sent) {
+    const std::string route = router_.patternOf(request.path);
+    metrics_.request(route.empty() ? "none" : route, response.status, milliseconds);
     logger_.request(request, response, milliseconds, sent);
 }
 
@@ -186,8 +189,23 @@ http::Response Service::readyz(const Call& call) {
 
 http::Response Service::version(const Call& call) {
     noParameters(call);
-    return jsonResponse(
-        {{"name", "farol"}, {"version", projectVersion()}, {"renderer", backend_.version()}});
+    const BackendFacts facts = backend_.facts();
+    json sandbox = json::object();
+    for (const auto& [layer, state] : facts.sandbox) sandbox[layer] = state;
+    return jsonResponse({{"name", "farol"},
+                         {"version", projectVersion()},
+                         {"renderer", backend_.version()},
+                         {"gl", facts.gl},
+                         {"sandbox", sandbox}});
+}
+
+http::Response Service::metrics(const Call& call) {
+    noParameters(call);
+    http::Response response;
+    response.contentType = "text/plain; version=0.0.4; charset=utf-8";
+    response.body = metrics_.text(backend_.state(), projectVersion(), backend_.version());
+    response.set("Cache-Control", "no-store");
+    return response;
 }
 
 }  // namespace farol::server

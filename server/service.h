@@ -9,6 +9,7 @@
 #include "server/backend.h"
 #include "server/http/message.h"
 #include "server/log.h"
+#include "server/metrics.h"
 #include "server/parameters.h"
 #include "server/router.h"
 #include "server/scenes.h"
@@ -49,6 +50,8 @@ class Service final : public http::Handler {
     http::Response livez(const Call& call);
     http::Response readyz(const Call& call);
     http::Response version(const Call& call);
+    http::Response metrics(const Call& call);
+    http::Response drawn(Done<render::Picture> done);
     http::Response postRender(const Call& call);
     http::Response postValidate(const Call& call);
     http::Response listScenes(const Call& call);
@@ -66,6 +69,7 @@ class Service final : public http::Handler {
     const ServiceOptions options_;
     Backend& backend_;
     Logger& logger_;
+    Metrics metrics_;
     SceneFolder scenes_;
     Router router_;
     std::atomic<bool> draining_{false};

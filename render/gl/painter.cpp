@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <glm/gtc/type_ptr.hpp>
+#include <new>
 #include <optional>
 
 #include "render/camera.h"
@@ -315,7 +316,9 @@ Image Painter::draw(const FramePlan& plan, const Decode& decode, int& drawCalls,
     }
     for (std::size_t i = 0; i < sum.size(); ++i)
         image.pixels[i] = static_cast<std::uint8_t>((sum[i] + sampled.passes / 2) / sampled.passes);
-    if (const GLenum error = s.api.GetError(); error != GL_NO_ERROR)
+    const GLenum error = s.api.GetError();
+    if (error == GL_OUT_OF_MEMORY) throw std::bad_alloc();
+    if (error != GL_NO_ERROR)
         throw std::runtime_error("GL error " + std::to_string(error) + " while drawing");
     if (plan.background.a < 1.0F) unpremultiply(image);
     timings.drawMs += sinceMs(begin) - timings.readbackMs;

@@ -1,7 +1,7 @@
 #include "render/gl/target.h"
 
 #include <algorithm>
-#include <stdexcept>
+#include <new>
 
 namespace farol::render::gl {
 namespace {
@@ -19,8 +19,9 @@ void attach(const Api& api, GLenum point, const Renderbuffer& buffer) {
 }
 
 void check(const Api& api) {
-    if (api.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
-        throw std::runtime_error("GL refuses the framebuffer");
+    if (api.CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE) return;
+    // Every GL 3.0 takes these formats, and sizes are bounded before: what is wanting is memory.
+    throw std::bad_alloc();
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 #include <thread>
 
 #include "fixture.h"
-#include "server/render_backend.h"
 
 using namespace farol;
 using namespace farol::test;
@@ -51,6 +50,8 @@ TEST_CASE("every request has its status and its code") {
         {"livez", {"GET", "/livez", {}, ""}, 200, "", ""},
         {"readyz", {"GET", "/readyz", {}, ""}, 200, "", ""},
         {"version", {"GET", "/version", {}, ""}, 200, "", ""},
+        {"metrics", {"GET", "/metrics", {}, ""}, 200, "", ""},
+        {"metrics with a parameter", {"GET", "/metrics?x=1", {}, ""}, 400, "option.unknown", "x"},
         {"list", {"GET", "/v1/scenes", {}, ""}, 200, "", ""},
         {"one", {"GET", "/v1/scenes/box", {}, ""}, 200, "", ""},
         {"one in a folder", {"GET", "/v1/scenes/deep/er/one", {}, ""}, 200, "", ""},

@@ -7,7 +7,7 @@
 
 namespace farol::test {
 
-server::Done<render::Picture> FakeBackend::render(const render::Job& job) {
+server::Done<render::Picture> FakeBackend::render(const render::Job& job, const std::string&) {
     ++renders;
     if (onRender) return {onRender(job), 0.5};
     render::Picture picture;

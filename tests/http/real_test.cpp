@@ -4,17 +4,27 @@
 
 #include "fixture.h"
 #include "render/image_file.h"
-#include "server/render_backend.h"
+#include "server/worker/pool.h"
 
 using namespace farol;
 using namespace farol::test;
 
 namespace {
 
-/// One backend for all tests of this file: a GL context takes its time to make.
-server::RenderBackend& realBackend() {
-    static server::RenderBackend backend(
-        1, {64, std::chrono::milliseconds(60'000), std::chrono::milliseconds(60'000)});
+/// One pool for all tests of this file: a worker takes its time to start. What scenes it may read
+/// lies below the sources and the tests' output.
+server::worker::WorkerPool& realBackend() {
+    static server::Logger quiet([](const std::string&) {});
+    static server::worker::WorkerPool backend(
+        [] {
+            server::worker::PoolOptions options;
+            options.queue = {64, std::chrono::milliseconds(60'000),
+                             std::chrono::milliseconds(60'000)};
+            options.worker.program = FAROL_BINARY;
+            options.worker.scenesDir = std::string(FAROL_SOURCE_DIR) + "/scenes";
+            return options;
+        }(),
+        quiet);
     return backend;
 }
 

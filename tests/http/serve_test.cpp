@@ -5,6 +5,9 @@
 #include <unistd.h>
 
 #include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
 #include <thread>
 
 #include "fixture.h"
@@ -50,6 +53,7 @@ class Daemon {
         while (read(out_, &c, 1) == 1 && c != '\n') line += c;
         return line;
     }
+    pid_t pid() const { return pid_; }
     void signal(int number) const { kill(pid_, number); }
     /// Waits for the end: the exit code, or 128 and the signal's number.
     int exitCode() {
@@ -71,7 +75,72 @@ int portIn(const std::string& line) {
     return std::stoi(line.substr(start.size()));
 }
 
+/// The processes that this one started, by /proc.
+std::vector<pid_t> childrenOf(pid_t parent) {
+    std::vector<pid_t> children;
+    for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
+        std::ifstream in(entry.path() / "stat");
+        std::string line;
+        if (!std::getline(in, line)) continue;
+        std::istringstream rest(line.substr(line.rfind(')') + 1));  // the name may hold anything
+        char state = 0;
+        pid_t of = 0;
+        if (rest >> state >> of && of == parent && state != 'Z')
+            children.push_back(std::stoi(entry.path().filename().string()));
+    }
+    return children;
+}
+
+/// True once none of them is there any more; false if one still is after ten seconds.
+bool allGone(const std::vector<pid_t>& pids) {
+    for (int i = 0; i < 1000; ++i) {
+        std::size_t gone = 0;
+        for (const pid_t pid : pids) {
+            std::ifstream in("/proc/" + std::to_string(pid) + "/stat");
+            std::string line;
+            // A zombie waits for whoever inherits it.
+            const bool dead =
+                !std::getline(in, line) || line.compare(line.rfind(')') + 2, 1, "Z") == 0;
+            if (dead) ++gone;
+        }
+        if (gone == pids.size()) return true;
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    return false;
+}
+
 }  // namespace
+
+TEST_CASE("workers end with the program, however it ends") {
+    for (const int number : {SIGTERM, SIGKILL}) {
+        Daemon daemon({"--port", "0", "--workers", "2"});
+        const int port = portIn(daemon.firstLine());
+        REQUIRE(get(port, "/readyz").status == 200);
+        const std::vector<pid_t> workers = childrenOf(daemon.pid());
+        CHECK(workers.size() == 2);
+        daemon.signal(number);
+        CHECK(daemon.exitCode() == (number == SIGKILL ? 128 + SIGKILL : 0));
+        CHECK(allGone(workers));
+    }
+}
+
+TEST_CASE("the program tells what its workers are kept in, and counts") {
+    Daemon daemon({"--port", "0", "--workers", "1"});
+    const int port = portIn(daemon.firstLine());
+    const auto sandbox = get(port, "/version").json()["sandbox"];
+    for (const char* layer : {"noNewPrivileges", "limits", "landlock", "seccomp", "deathSignal"})
+        CHECK(sandbox.contains(layer));
+    const std::vector<pid_t> workers = childrenOf(daemon.pid());
+    for (const pid_t worker : workers) kill(worker, SIGKILL);
+    REQUIRE(allGone(workers));
+    CHECK(get(port, "/readyz").status == 200);
+    const std::string metrics = get(port, "/metrics").body;
+    INFO(metrics);
+    CHECK(metrics.find("farol_workers 1\n") != std::string::npos);
+    CHECK(metrics.find("farol_worker_restarts_total{reason=\"idle\"} 1\n") != std::string::npos);
+    CHECK(metrics.find("farol_http_requests_total{route=\"/version\",code=\"200\"} 1\n") !=
+          std::string::npos);
+}
 
 TEST_CASE("serve says where it listens, draws, and ends with 0 on a signal") {
     for (const int number : {SIGTERM, SIGINT}) {

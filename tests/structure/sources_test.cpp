@@ -97,6 +97,7 @@ const std::vector<Library> kLibraries{{{"GL/", "EGL/"}, "render/gl/", 0},
                                       {{"pugixml"}, "scene/", 0},
                                       {{"httplib"}, "server/http/", 0},
                                       {{"CLI/"}, "cli/", 0},
+                                      {{"seccomp.h"}, "server/worker/", 1},
                                       {{"libdeflate"}, "render/", 1},
                                       {{"jpeglib", "webp/", "turbojpeg"}, "render/", 1},
                                       {{"catch2/"}, "tests/", 0}};

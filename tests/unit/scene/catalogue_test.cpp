@@ -36,9 +36,10 @@ std::set<std::string> codesInSources() {
         for (const auto& entry : fs::recursive_directory_iterator(root)) {
             const std::string ending = entry.path().extension().string();
             if (ending != ".cpp" && ending != ".h") continue;
-            all.merge(matches(readFile(entry.path()),
-                              "\"((?:xml|scene|asset|shape|mesh|image|limit|option|http|busy)"
-                              "\\.[a-z]+(?:-[a-z]+)*)\""));
+            all.merge(
+                matches(readFile(entry.path()),
+                        "\"((?:xml|scene|asset|shape|mesh|image|limit|option|http|busy|worker)"
+                        "\\.[a-z]+(?:-[a-z]+)*)\""));
         }
     }
     for (const char* file : {"scene.xml", "image.png"}) all.erase(file);

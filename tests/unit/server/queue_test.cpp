@@ -18,7 +18,8 @@ struct Pool {
         for (int i = 0; i < workers; ++i)
             threads.emplace_back([this] {
                 Nobody self;
-                while (queue.workOnce(self)) {
+                JobQueue<Nobody>::Seat seat;
+                while (queue.workOnce(self, seat)) {
                 }
             });
         while (queue.state().workers < workers) std::this_thread::yield();

@@ -1,0 +1,111 @@
+#include "server/metrics.h"
+
+#include <charconv>
+
+namespace farol::server {
+namespace {
+
+std::string number(double value) {
+    char text[64];
+    const auto [end, error] = std::to_chars(text, text + sizeof text, value);
+    return error == std::errc() ? std::string(text, end) : "NaN";
+}
+
+std::string quoted(const std::string& value) {
+    std::string out = "\"";
+    for (const char c : value) {
+        if (c == '\n') {
+            out += "\\n";
+            continue;
+        }
+        if (c == '"' || c == '\\') out += '\\';
+        out += c;
+    }
+    return out + "\"";
+}
+
+void head(std::string& out, const char* name, const char* type, const char* help) {
+    out.append("# HELP ").append(name).append(" ").append(help).append("\n# TYPE ");
+    out.append(name).append(" ").append(type).append("\n");
+}
+
+void line(std::string& out, const std::string& name, double value) {
+    out.append(name).append(" ").append(number(value)).append("\n");
+}
+
+}  // namespace
+
+void Metrics::Histogram::add(double seconds) {
+    ++count;
+    sumS += seconds;
+    for (std::size_t i = 0; i < kBoundsS.size(); ++i)
+        if (seconds <= kBoundsS[i]) {
+            ++counts[i];
+            return;
+        }
+}
+
+void Metrics::request(const std::string& route, int status, double milliseconds) {
+    const std::lock_guard lock(mutex_);
+    ++requests_[{route, status}];
+    duration_.add(milliseconds / 1000.0);
+}
+
+void Metrics::stage(const std::string& stage, double milliseconds) {
+    const std::lock_guard lock(mutex_);
+    stages_[stage].add(milliseconds / 1000.0);
+}
+
+void Metrics::write(std::string& out, const std::string& name, const std::string& label,
+                    const Histogram& histogram) {
+    const std::string comma = label.empty() ? "" : label + ",";
+    std::uint64_t below = 0;
+    for (std::size_t i = 0; i < kBoundsS.size(); ++i) {
+        below += histogram.counts[i];
+        line(out, name + "_bucket{" + comma + "le=\"" + number(kBoundsS[i]) + "\"}",
+             static_cast<double>(below));
+    }
+    const auto count = static_cast<double>(histogram.count);
+    const std::string labels = label.empty() ? "" : "{" + label + "}";
+    line(out, name + "_bucket{" + comma + "le=\"+Inf\"}", count);
+    line(out, name + "_sum" + labels, histogram.sumS);
+    line(out, name + "_count" + labels, count);
+}
+
+std::string Metrics::text(const BackendState& backend, const std::string& version,
+                          const std::string& renderer) const {
+    std::string out;
+    const std::lock_guard lock(mutex_);
+    head(out, "farol_http_requests_total", "counter", "Requests answered.");
+    for (const auto& [key, count] : requests_)
+        line(out,
+             "farol_http_requests_total{route=" + quoted(key.first) + ",code=\"" +
+                 std::to_string(key.second) + "\"}",
+             static_cast<double>(count));
+    head(out, "farol_request_duration_seconds", "histogram", "Time to answer a request.");
+    write(out, "farol_request_duration_seconds", "", duration_);
+    head(out, "farol_stage_duration_seconds", "histogram", "Time of the stages of a picture.");
+    for (const auto& [stage, histogram] : stages_)
+        write(out, "farol_stage_duration_seconds", "stage=" + quoted(stage), histogram);
+    head(out, "farol_queue_depth", "gauge", "Jobs that wait for a worker.");
+    line(out, "farol_queue_depth", backend.queued);
+    head(out, "farol_workers", "gauge", "Worker processes that can draw.");
+    line(out, "farol_workers", backend.workers);
+    head(out, "farol_workers_busy", "gauge", "Workers with a job.");
+    line(out, "farol_workers_busy", backend.busy);
+    head(out, "farol_worker_restarts_total", "counter", "Workers replaced, by reason.");
+    for (const char* reason : {"crash", "deadline", "idle", "killed", "memory", "recycled"}) {
+        const auto found = backend.restarts.find(reason);
+        line(out, "farol_worker_restarts_total{reason=" + quoted(reason) + "}",
+             found == backend.restarts.end() ? 0.0 : static_cast<double>(found->second));
+    }
+    head(out, "farol_coalesced_requests_total", "counter",
+         "Pictures answered by one that was being drawn.");
+    line(out, "farol_coalesced_requests_total", static_cast<double>(backend.coalesced));
+    head(out, "farol_build_info", "gauge", "What is running.");
+    line(out, "farol_build_info{version=" + quoted(version) + ",renderer=" + quoted(renderer) + "}",
+         1);
+    return out;
+}
+
+}  // namespace farol::server

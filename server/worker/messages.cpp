@@ -1,0 +1,167 @@
+#include "server/worker/messages.h"
+
+#include <concepts>
+#include <map>
+
+#include "server/worker/wire.h"
+
+// visit() lies beside the types it is for, where it is found by them. Each names all fields of its
+// structure, so that one that is added and not sent does not compile.
+namespace farol {
+
+constexpr Severity lastOf(Severity) { return Severity::error; }
+
+template <typename Value, typename Type>
+concept Is = std::same_as<std::remove_const_t<Value>, Type>;
+
+template <typename Archive, Is<Location> T>
+void visit(Archive& archive, T& value) {
+    auto& [file, line, column] = value;
+    archive(file, line, column);
+}
+
+template <typename Archive, Is<Diagnostic> T>
+void visit(Archive& archive, T& value) {
+    auto& [severity, code, where, message, field] = value;
+    archive(severity, code, where, message, field);
+}
+
+namespace scene {
+constexpr Shading lastOf(Shading) { return Shading::phong; }
+constexpr Filter lastOf(Filter) { return Filter::anisotropic; }
+constexpr Viewer lastOf(Viewer) { return Viewer::local; }
+constexpr Specular lastOf(Specular) { return Specular::separate; }
+
+template <typename Archive, Is<Camera> T>
+void visit(Archive& archive, T& value) {
+    auto& [eye, target, up, fovDeg, near, far, where] = value;
+    archive(eye, target, up, fovDeg, near, far, where);
+}
+}  // namespace scene
+
+namespace render {
+constexpr Format lastOf(Format) { return Format::webp; }
+constexpr Layer lastOf(Layer) { return Layer::id; }
+
+template <typename Archive, Is<PictureOptions> T>
+void visit(Archive& archive, T& value) {
+    auto& [width, height, eye, target, up, azimuthDeg, elevationDeg, distance, fovDeg, near, far,
+           timeS, shading, samples, filter, errorPx, axes, curves, focus, debug, background, entity,
+           format, quality, layer, viewer, specular, scale] = value;
+    archive(width, height, eye, target, up, azimuthDeg, elevationDeg, distance, fovDeg, near, far,
+            timeS, shading, samples, filter, errorPx, axes, curves, focus, debug, background,
+            entity, format, quality, layer, viewer, specular, scale);
+}
+
+template <typename Archive, Is<Stats> T>
+void visit(Archive& archive, T& value) {
+    auto& [instances, culled, drawCalls, textures, lights, triangles] = value;
+    archive(instances, culled, drawCalls, textures, lights, triangles);
+}
+
+template <typename Archive, Is<StageTimes> T>
+void visit(Archive& archive, T& value) {
+    auto& [parseMs, geometryMs, drawMs, readbackMs, encodeMs] = value;
+    archive(parseMs, geometryMs, drawMs, readbackMs, encodeMs);
+}
+
+template <typename Archive, Is<Picture> T>
+void visit(Archive& archive, T& value) {
+    auto& [bytes, contentType, width, height, diagnostics, camera, stats, times] = value;
+    archive(bytes, contentType, width, height, diagnostics, camera, stats, times);
+}
+
+template <typename Archive, Is<SceneReport> T>
+void visit(Archive& archive, T& value) {
+    auto& [diagnostics, title, description, width, height, animated, plays, camera, triangles,
+           models, lights, textures, textureBytes] = value;
+    archive(diagnostics, title, description, width, height, animated, plays, camera, triangles,
+            models, lights, textures, textureBytes);
+}
+}  // namespace render
+
+namespace server {
+template <typename Archive, Is<MeshJob> T>
+void visit(Archive& archive, T& value) {
+    auto& [words, format] = value;
+    archive(words, format);
+}
+
+namespace worker {
+constexpr Task lastOf(Task) { return Task::check; }
+constexpr Outcome lastOf(Outcome) { return Outcome::memory; }
+
+template <typename Archive, Is<Hello> T>
+void visit(Archive& archive, T& value) {
+    auto& [fault, gl, sandbox] = value;
+    archive(fault, gl, sandbox);
+}
+
+template <typename Archive, Is<Reply> T>
+void visit(Archive& archive, T& value) {
+    auto& [outcome, diagnostics, message, picture, report, mesh] = value;
+    archive(outcome, diagnostics, message, picture, report, mesh);
+}
+
+namespace {
+using Files = std::vector<std::pair<std::string, std::string>>;
+
+/// Reads one message that is T and nothing more.
+template <typename T>
+T unpack(std::string_view bytes) {
+    T value;
+    Unpacker unpacker(bytes);
+    unpacker(value);
+    unpacker.end();
+    return value;
+}
+
+template <typename T>
+std::string packed(const T& value) {
+    Packer packer;
+    packer(value);
+    return packer.take();
+}
+}  // namespace
+
+std::string pack(const Request& request) {
+    const auto& [task, job, mesh] = request;
+    const auto& [name, xml, assets, options, strict, identity] = job;
+    std::string folder;
+    Files files;
+    if (const auto* served = dynamic_cast<const scene::FolderAssets*>(assets.get())) {
+        folder = served->root();
+    } else if (assets) {
+        for (const std::string& path : assets->list())
+            if (auto bytes = assets->read(path)) files.emplace_back(path, std::move(*bytes));
+    }
+    Packer packer;
+    packer(task, name, xml, folder, files, options, strict, identity, mesh);
+    return packer.take();
+}
+
+Request unpackRequest(std::string_view bytes) {
+    Request request;
+    std::string folder;
+    Files files;
+    Unpacker unpacker(bytes);
+    render::Job& job = request.job;
+    unpacker(request.task, job.name, job.xml, folder, files, job.options, job.strict, job.identity,
+             request.mesh);
+    unpacker.end();
+    if (!folder.empty())
+        job.assets = std::make_shared<scene::FolderAssets>(folder);
+    else
+        job.assets = std::make_shared<scene::BundleAssets>(std::map<std::string, std::string>(
+            std::make_move_iterator(files.begin()), std::make_move_iterator(files.end())));
+    return request;
+}
+
+std::string pack(const Reply& reply) { return packed(reply); }
+Reply unpackReply(std::string_view bytes) { return unpack<Reply>(bytes); }
+std::string pack(const Hello& hello) { return packed(hello); }
+Hello unpackHello(std::string_view bytes) { return unpack<Hello>(bytes); }
+
+}  // namespace worker
+}  // namespace server
+}  // namespace farol

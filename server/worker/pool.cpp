@@ -1,0 +1,261 @@
+#include "server/worker/pool.h"
+
+#include <algorithm>
+
+#include "render/encode.h"
+#include "scene/digest.h"
+
+namespace farol::server::worker {
+namespace {
+
+// How often an idle worker is looked at, so that one that died is replaced before it is needed.
+constexpr std::chrono::milliseconds kLook{200};
+constexpr std::chrono::milliseconds kLongestPause{5'000};
+
+QueueLimits withSlack(QueueLimits limits) {
+    // The slot's thread keeps the deadline; the queue's own comes into play only if it cannot.
+    limits.deadline += std::chrono::seconds(5);
+    return limits;
+}
+
+/// What a worker that has the scene warm is found by, and what a quarantine is for.
+std::string sceneOf(const render::Job& job) {
+    std::string all = job.name + "\n" + job.xml + "\n";
+    if (const auto* folder = dynamic_cast<const scene::FolderAssets*>(job.assets.get()))
+        all += folder->root();
+    else if (job.assets)
+        for (const std::string& path : job.assets->list())
+            all += path + "\n" + job.assets->version(path) + "\n";
+    return scene::contentDigest(all);
+}
+
+}  // namespace
+
+WorkerPool::WorkerPool(PoolOptions options, Logger& logger)
+    : options_(std::move(options)),
+      logger_(logger),
+      queue_(withSlack(options_.queue)),
+      quarantine_(options_.quarantine) {
+    for (int i = 0; i < options_.workers; ++i) threads_.emplace_back([this, i] { run(i); });
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [this] { return anyReady_ || settled_ == options_.workers; });
+}
+
+WorkerPool::~WorkerPool() { stop(); }
+
+void WorkerPool::stop() {
+    {
+        const std::lock_guard lock(mutex_);
+        stopping_ = true;
+    }
+    changed_.notify_all();
+    queue_.close();
+    for (std::thread& thread : threads_) thread.join();
+    threads_.clear();
+}
+
+// One thread a worker: it starts, asks, ends and replaces it.
+void WorkerPool::run(int index) {
+    Slot slot;
+    slot.index = index;
+    // The first generation ends one after the other, so that not all are replaced at once.
+    slot.jobs = static_cast<long>(options_.recycleAfter) * index / options_.workers;
+    Queue::Seat seat;
+    for (;;) {
+        const bool drew = ready(slot);
+        if (!drew) {
+            std::unique_lock lock(mutex_);
+            if (changed_.wait_for(lock, slot.pause, [this] { return stopping_; })) break;
+            continue;
+        }
+        if (!queue_.workOnce(slot, seat, kLook)) break;
+    }
+    slot.process.reset();
+    const std::lock_guard lock(mutex_);
+    pids_.erase(index);
+}
+
+bool WorkerPool::ready(Slot& slot) {
+    if (slot.process && !slot.process->alive()) drop(slot, "idle");
+    if (slot.process && slot.jobs >= options_.recycleAfter) drop(slot, "recycled");
+    if (slot.process) return true;
+    try {
+        auto process = std::make_unique<WorkerProcess>(options_.worker);
+        slot.pause = std::chrono::milliseconds(0);
+        const std::lock_guard lock(mutex_);
+        slot.process = std::move(process);
+        pids_[slot.index] = slot.process->pid();
+        if (facts_.sandbox.empty()) {
+            facts_ = {slot.process->hello().gl, slot.process->hello().sandbox};
+            for (const auto& [layer, state] : facts_.sandbox)
+                if (state.starts_with("missing")) logger_.event("sandbox", layer + ": " + state);
+        }
+        anyReady_ = true;
+    } catch (const std::exception& fault) {
+        slot.pause = std::clamp(slot.pause * 2, std::chrono::milliseconds(100), kLongestPause);
+        logger_.event("worker-start", fault.what());
+    }
+    {
+        const std::lock_guard lock(mutex_);
+        ++settled_;
+    }
+    changed_.notify_all();
+    return slot.process != nullptr;
+}
+
+void WorkerPool::drop(Slot& slot, const std::string& reason) {
+    slot.process.reset();
+    slot.jobs = 0;
+    {
+        const std::lock_guard lock(mutex_);
+        ++restarts_[reason];
+        pids_.erase(slot.index);
+    }
+    if (reason != "recycled") logger_.event("worker-restart", reason);
+}
+
+void WorkerPool::admit(const std::string& scene) {
+    if (const auto left = quarantine_.left(scene); left.count() > 0)
+        throw Busy("worker.quarantine",
+                   "This scene ended two workers one after the other; it is not tried again yet.",
+                   static_cast<int>(left.count()));
+}
+
+Reply WorkerPool::askSlot(Slot& slot, const std::string& request, const std::string& scene) {
+    if (slot.process && !slot.process->alive()) drop(slot, "idle");
+    if (!slot.process && !ready(slot))
+        throw Busy("worker.crashed", "No worker could be started for this request.", 2);
+    ++slot.jobs;
+    try {
+        Reply reply = slot.process->call(request, options_.queue.deadline);
+        // A heap that was full once is not worth keeping.
+        if (reply.outcome == Outcome::memory)
+            drop(slot, "memory");
+        else if (!scene.empty())
+            quarantine_.success(scene);
+        return reply;
+    } catch (const WorkerLost& lost) {
+        using Why = WorkerLost::Why;
+        const bool fromOutside = lost.why() == Why::killed || lost.why() == Why::idle;
+        if (!fromOutside && !scene.empty()) quarantine_.strike(scene);
+        logger_.event("worker-lost", lost.what());
+        if (lost.why() == Why::late) {
+            drop(slot, "deadline");
+            throw Busy("busy.deadline", "The work was not done in time.", 1);
+        }
+        drop(slot, fromOutside ? "killed" : "crash");
+        if (fromOutside)
+            throw Busy("worker.killed", "The worker that had this request was ended.", 1);
+        throw Busy("worker.crashed", "The worker that had this request crashed.", 1);
+    }
+}
+
+Reply WorkerPool::judged(Reply reply) const {
+    switch (reply.outcome) {
+        case Outcome::done:
+            return reply;
+        case Outcome::refused:
+            if (reply.diagnostics.empty()) throw std::runtime_error("a worker refused in silence");
+            throw Error(std::move(reply.diagnostics));
+        case Outcome::memory:
+            throw Error("limit.memory", "The scene needs more memory than a worker may take (" +
+                                            std::to_string(options_.worker.memoryBytes >> 20U) +
+                                            " MiB).");
+        case Outcome::broken:
+            break;
+    }
+    throw std::runtime_error(reply.message);
+}
+
+// What is packed is shared: a caller that gives up leaves it behind.
+Done<Reply> WorkerPool::ask(std::string packed, const std::string& scene) {
+    if (!scene.empty()) admit(scene);
+    const auto request = std::make_shared<const std::string>(std::move(packed));
+    Done<Reply> done = queue_.run<Reply>(
+        [this, request, scene](Slot& slot) { return askSlot(slot, *request, scene); }, scene);
+    done.result = judged(std::move(done.result));
+    return done;
+}
+
+Done<render::Picture> WorkerPool::draw(const render::Job& job, std::string packed) {
+    Done<Reply> done = ask(std::move(packed), sceneOf(job));
+    // A worker that is not ours any more must not choose a header of the answer.
+    done.result.picture.contentType = render::contentType(job.options.format);
+    return {std::move(done.result.picture), done.queueMs};
+}
+
+Done<render::Picture> WorkerPool::render(const render::Job& job, const std::string& tag) {
+    Request request;
+    request.task = Task::render;
+    request.job = job;
+    std::string packed = pack(request);
+    const std::string key = tag.empty() ? scene::contentDigest(packed) : tag;
+    std::promise<Done<render::Picture>> promise;
+    {
+        std::unique_lock lock(mutex_);
+        if (const auto found = inFlight_.find(key); found != inFlight_.end()) {
+            const Shared shared = found->second;
+            lock.unlock();
+            ++coalesced_;
+            return shared.get();
+        }
+        inFlight_.emplace(key, promise.get_future().share());
+    }
+    const auto forget = [&] {
+        const std::lock_guard lock(mutex_);
+        inFlight_.erase(key);
+    };
+    try {
+        Done<render::Picture> done = draw(job, std::move(packed));
+        forget();
+        promise.set_value(done);
+        return done;
+    } catch (...) {
+        forget();
+        promise.set_exception(std::current_exception());
+        throw;
+    }
+}
+
+Done<render::SceneReport> WorkerPool::inspect(const render::Job& job) {
+    Request request;
+    request.task = Task::inspect;
+    request.job = job;
+    Done<Reply> done = ask(pack(request), sceneOf(job));
+    return {std::move(done.result.report), done.queueMs};
+}
+
+Done<std::string> WorkerPool::mesh(const MeshJob& job) {
+    Request request;
+    request.task = Task::mesh;
+    request.mesh = job;
+    Done<Reply> done = ask(pack(request), "");
+    return {std::move(done.result.mesh), done.queueMs};
+}
+
+void WorkerPool::check() { ask(pack(Request{}), ""); }
+
+BackendState WorkerPool::state() const {
+    BackendState state = queue_.state();
+    state.coalesced = coalesced_;
+    const std::lock_guard lock(mutex_);
+    state.workers = static_cast<int>(pids_.size());
+    state.restarts = restarts_;
+    return state;
+}
+
+BackendFacts WorkerPool::facts() const {
+    const std::lock_guard lock(mutex_);
+    return facts_;
+}
+
+std::vector<pid_t> WorkerPool::pids() const {
+    const std::lock_guard lock(mutex_);
+    std::vector<pid_t> all;
+    for (const auto& [index, pid] : pids_) all.push_back(pid);
+    return all;
+}
+
+std::string WorkerPool::version() const { return render::version(); }
+
+}  // namespace farol::server::worker

@@ -1,0 +1,77 @@
+#include "server/worker/sandbox.h"
+
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+
+namespace farol::server::worker {
+namespace {
+
+// A sanitizer's shadow counts as memory of the process: no cap is possible there.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool kSanitized = true;
+#else
+constexpr bool kSanitized = false;
+#endif
+
+std::string missing() { return std::string("missing: ") + std::strerror(errno); }
+
+bool limit(__rlimit_resource resource, rlim_t value) {
+    const rlimit both{value, value};
+    return setrlimit(resource, &both) == 0;
+}
+
+std::string limitResources(std::size_t memoryBytes) {
+    if (!limit(RLIMIT_CORE, 0) || !limit(RLIMIT_NOFILE, 64)) return missing();
+    if (kSanitized) return "on, without a memory cap: a sanitizer's build";
+    if (memoryBytes == 0) return "on, without a memory cap";
+    if (!limit(RLIMIT_DATA, memoryBytes)) return missing();
+    return "on";
+}
+
+/// Where Mesa keeps compiled shaders (its documentation, "Environment Variables").
+std::string shaderCache() {
+    namespace fs = std::filesystem;
+    fs::path folder;
+    const auto from = [&](const char* variable, const char* below) {
+        const char* value = std::getenv(variable);
+        if (folder.empty() && value != nullptr && *value != '\0') folder = fs::path(value) / below;
+    };
+    from("MESA_SHADER_CACHE_DIR", "mesa_shader_cache");
+    from("MESA_GLSL_CACHE_DIR", "mesa_shader_cache");
+    from("XDG_CACHE_HOME", "mesa_shader_cache");
+    from("HOME", ".cache/mesa_shader_cache");
+    std::error_code ignored;  // without a cache Mesa compiles every time
+    if (!folder.empty()) fs::create_directories(folder, ignored);
+    return folder.string();
+}
+
+}  // namespace
+
+void enterSandbox(const SandboxOptions& options, Layers& layers) {
+    layers.emplace_back("deathSignal", prctl(PR_SET_PDEATHSIG, SIGKILL) == 0 ? "on" : missing());
+    layers.emplace_back("noNewPrivileges",
+                        prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 ? "on" : missing());
+    layers.emplace_back("limits", limitResources(options.memoryBytes));
+    std::vector<std::string> readable = {"/usr", "/lib", "/lib64", "/sys/devices/system/cpu"};
+    readable.insert(readable.end(), options.readable.begin(), options.readable.end());
+    layers.emplace_back("landlock", restrictFiles(readable, {shaderCache()}));
+}
+
+void closeSandbox(const SandboxOptions& options, Layers& layers) {
+    signal(SIGXFSZ, SIG_IGN);
+    if (!kSanitized && !limit(RLIMIT_FSIZE, 0)) layers.emplace_back("fileSize", missing());
+    // Of what the first rules left open for the program's start, only Mesa's cache is needed: to
+    // read. One that could write there could leave code for those who come after it.
+    std::vector<std::string> readable = options.readable;
+    readable.push_back(shaderCache());
+    restrictFiles(readable, {});
+    layers.emplace_back("seccomp", restrictCalls(kSocket));
+}
+
+}  // namespace farol::server::worker

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "render/image.h"
+#include "render/plan.h"
+
+/// The yardstick of frame speed: what one writes in an afternoon with OSMesa and libdeflate. One
+/// general per-pixel shader (all light types, specular, texture), everything uploaded once, one
+/// draw call a mesh in the order given, the picture deflated by one thread. It stays as it is: it
+/// shares nothing with the renderer but the meshes, matrices and decoded pictures it is given.
+namespace farol::bench {
+
+class BareLoop {
+  public:
+    /// textures[i] is the decoded picture of plan.textures[i].
+    BareLoop(const render::FramePlan& plan, const std::vector<render::Image>& textures);
+    ~BareLoop();
+    BareLoop(const BareLoop&) = delete;
+    BareLoop& operator=(const BareLoop&) = delete;
+
+    /// Draws the frame and returns it as a PNG (RGB, filter Sub, libdeflate level 1).
+    std::string frame();
+
+  private:
+    struct State;
+    State* state_;
+};
+
+}  // namespace farol::bench

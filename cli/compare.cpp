@@ -4,10 +4,12 @@
 #include <cmath>
 #include <iostream>
 #include <memory>
-#include <optional>
+#include <vector>
 
 #include "cli/command.h"
 #include "cli/files.h"
+#include "grade/client_area.h"
+#include "grade/flip.h"
 #include "render/encode.h"
 #include "render/image_file.h"
 
@@ -15,15 +17,13 @@ namespace farol::cli {
 namespace {
 
 struct Flags {
-    std::string first, second, crop, diff;
+    std::string first, second, crop, diff, heat;
+    std::vector<std::string> masks;
+    bool maskAxes = false;
 };
 
-struct Rectangle {
-    int x = 0, y = 0, width = 0, height = 0;
-};
-
-Rectangle parseCrop(const std::string& text) {
-    Rectangle wanted;
+grade::Rectangle parseRectangle(const std::string& flag, const std::string& text) {
+    grade::Rectangle wanted;
     const char *at = text.data(), *end = at + text.size();
     const auto number = [&](char before, int& value) {
         if (before != '\0' && (at == end || *at++ != before)) return false;
@@ -33,18 +33,31 @@ Rectangle parseCrop(const std::string& text) {
     };
     if (!number('\0', wanted.width) || !number('x', wanted.height) || !number('+', wanted.x) ||
         !number('+', wanted.y) || at != end)
-        throw UsageError("--crop " + text + ": takes WxH+X+Y, as in 512x512+1+31");
+        throw UsageError(flag + " " + text + ": takes WxH+X+Y, as in 512x512+1+31");
     return wanted;
 }
 
-render::Image open(const std::string& path, const std::optional<Rectangle>& wanted) {
-    const render::Image image = render::decodeImage(readInput(path), path, {path, 0, 0});
-    if (!wanted || (image.width == wanted->width && image.height == wanted->height)) return image;
+/// Takes the part that `text` names; "auto": the client area of a window.
+render::Image cut(const render::Image& image, const std::string& text, const std::string& path) {
+    if (text.empty()) return image;
+    if (text == "auto") return grade::crop(image, grade::clientArea(image));
+    const grade::Rectangle wanted = parseRectangle("--crop", text);
+    if (image.width == wanted.width && image.height == wanted.height) return image;
     try {
-        return grade::crop(image, wanted->x, wanted->y, wanted->width, wanted->height);
+        return grade::crop(image, wanted);
     } catch (const Error& error) {
         throw Error(error.code(), error.what(), {path, 0, 0});
     }
+}
+
+render::Image open(const std::string& path, const std::string& crop) {
+    return cut(render::decodeImage(readInput(path), path, {path, 0, 0}), crop, path);
+}
+
+std::string requirePng(const std::string& flag, const std::string& path) {
+    if (!path.empty() && endingOf(path) != "png")
+        throw UsageError(flag + " " + path + ": must end with .png");
+    return path;
 }
 
 nlohmann::json shares(const std::array<double, grade::kLevels.size()>& within) {
@@ -52,6 +65,12 @@ nlohmann::json shares(const std::array<double, grade::kLevels.size()>& within) {
     for (std::size_t i = 0; i < within.size(); ++i)
         all.push_back({{"levels", grade::kLevels[i]}, {"share", within[i]}});
     return all;
+}
+
+std::string number(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.4f", value);
+    return text;
 }
 
 void print(const grade::Comparison& found) {
@@ -67,24 +86,45 @@ void print(const grade::Comparison& found) {
     for (std::size_t i = 0; i < grade::kLevels.size(); ++i)
         row("% within " + std::to_string(grade::kLevels[i]), 100.0 * found.within[i],
             100.0 * found.tolerantWithin[i]);
-    row("PSNR, dB", found.psnrDb, found.psnrDb);
-    std::cout << std::flush;
+    std::cout << "PSNR " << number(found.psnrDb) << " dB, SSIM "
+              << (found.ssim ? number(*found.ssim) : "-") << ", FLIP mean "
+              << number(found.flip.mean) << ", median " << number(found.flip.median) << ", p95 "
+              << number(found.flip.p95) << ", p99 " << number(found.flip.p99) << ", max "
+              << number(found.flip.max) << std::endl;
+    if (found.counted < 1.0)
+        std::cout << number(100.0 * found.counted) << " % of the pixels count" << std::endl;
 }
 
 int run(const Flags& flags, Report& report) {
-    std::optional<Rectangle> wanted;
-    if (!flags.crop.empty()) wanted = parseCrop(flags.crop);
-    if (!flags.diff.empty() && endingOf(flags.diff) != "png")
-        throw UsageError("--diff " + flags.diff + ": must end with .png");
-    const render::Image first = open(flags.first, wanted), second = open(flags.second, wanted);
-    const auto [found, shown] = grade::compare(first, second);
+    requirePng("--diff", flags.diff);
+    requirePng("--heat", flags.heat);
+    std::vector<grade::Rectangle> hidden;
+    for (const std::string& text : flags.masks) hidden.push_back(parseRectangle("--mask", text));
+    if (!flags.crop.empty() && flags.crop != "auto") parseRectangle("--crop", flags.crop);
+    const render::Image first = open(flags.first, flags.crop),
+                        second = open(flags.second, flags.crop);
+    grade::requireSameSize(first.width, first.height, second.width, second.height);
+    grade::Mask mask;
+    grade::hide(mask, first.width, first.height, hidden);
+    if (flags.maskAxes) grade::hideAxes(mask, first, second);
+    const auto [found, shown] = grade::compare(first, second, mask);
     if (!flags.diff.empty()) writeOutput(flags.diff, render::encodePng(shown));
+    if (!flags.heat.empty())
+        writeOutput(flags.heat, render::encodePng(grade::heatMap(grade::flip(
+                                    grade::FloatImage(first), grade::FloatImage(second)))));
     report.set("width", found.width);
     report.set("height", found.height);
     report.set("mean", found.meanLevels);
     report.set("max", found.maxLevels);
     report.set("within", shares(found.within));
     report.set("psnr", std::isfinite(found.psnrDb) ? nlohmann::json(found.psnrDb) : nullptr);
+    report.set("ssim", found.ssim ? nlohmann::json(*found.ssim) : nullptr);
+    report.set("flip", {{"mean", found.flip.mean},
+                        {"median", found.flip.median},
+                        {"p95", found.flip.p95},
+                        {"p99", found.flip.p99},
+                        {"max", found.flip.max}});
+    report.set("counted", found.counted);
     report.set("tolerant", {{"mean", found.tolerantMeanLevels},
                             {"max", found.tolerantMaxLevels},
                             {"within", shares(found.tolerantWithin)}});
@@ -101,8 +141,16 @@ void addCompare(CLI::App& root, Action& action) {
     command->add_option("B", flags->second, "a picture file")->type_name("")->required();
     command
         ->add_option("--crop", flags->crop,
-                     "px from the top left: cuts each picture that is not WxH yet")
-        ->type_name("WxH+X+Y");
+                     "px from the top left: cuts each picture that is not WxH yet; auto: cuts "
+                     "the frame and the title bar off a screenshot")
+        ->type_name("WxH+X+Y|auto");
+    command->add_option("--mask", flags->masks, "px: a part that does not count (repeatable)")
+        ->type_name("WxH+X+Y")
+        ->allow_extra_args(false);
+    command->add_flag("--mask-axes", flags->maskAxes,
+                      "coordinate axes and the pixels around them do not count");
+    command->add_option("--heat", flags->heat, "writes FLIP as a .png, from black (0) to white (1)")
+        ->type_name("FILE");
     command->add_option("--diff", flags->diff, "writes a .png that shows where they differ")
         ->type_name("FILE");
     command->callback(

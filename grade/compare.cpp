@@ -6,6 +6,8 @@
 #include <limits>
 #include <string>
 
+#include "grade/flip.h"
+#include "grade/ssim.h"
 #include "scene/error.h"
 
 namespace farol::grade {
@@ -56,70 +58,98 @@ double squaredError(const Pixel& a, const Pixel& b) {
     return sum;
 }
 
+void add(Comparison& result, int plain, int tolerant) {
+    result.meanLevels += plain;
+    result.tolerantMeanLevels += tolerant;
+    result.maxLevels = std::max(result.maxLevels, plain);
+    result.tolerantMaxLevels = std::max(result.tolerantMaxLevels, tolerant);
+    for (std::size_t i = 0; i < kLevels.size(); ++i) {
+        if (plain <= kLevels[i]) result.within[i] += 1.0;
+        if (tolerant <= kLevels[i]) result.tolerantWithin[i] += 1.0;
+    }
+}
+
 std::array<std::uint8_t, 4> show(const Pixel& first, int tolerant) {
     const int grey = (first[0] + first[1] + first[2]) / 12;
     const auto faded = static_cast<std::uint8_t>(grey);
     return {static_cast<std::uint8_t>(std::min(255, grey + 8 * tolerant)), faded, faded, 255};
 }
 
-std::string sizeOf(const render::Image& image) {
-    return std::to_string(image.width) + "x" + std::to_string(image.height);
-}
-
 }  // namespace
 
 std::pair<Comparison, render::Image> compare(const render::Image& first,
-                                             const render::Image& second) {
-    if (first.width != second.width || first.height != second.height || first.pixels.empty())
-        throw Error("image.size", "the pictures are of " + sizeOf(first) + " and of " +
-                                      sizeOf(second) + " pixels: only equal sizes compare");
+                                             const render::Image& second, const Mask& mask) {
+    requireSameSize(first.width, first.height, second.width, second.height);
     const Pixels a(first), b(second);
     Comparison result{.width = a.width, .height = a.height};
     render::Image shown{a.width, a.height, {}};
     shown.pixels.reserve(first.pixels.size());
     double squares = 0.0;
+    std::size_t counted = 0, at = 0;
     for (int y = 0; y < a.height; ++y)
-        for (int x = 0; x < a.width; ++x) {
+        for (int x = 0; x < a.width; ++x, ++at) {
             const Pixel &here = a.at(x, y), &there = b.at(x, y);
-            const int plain = difference(here, there);
-            const int tolerant = std::max(leastAround(here, b, x, y), leastAround(there, a, x, y));
-            squares += squaredError(here, there);
-            result.meanLevels += plain;
-            result.tolerantMeanLevels += tolerant;
-            result.maxLevels = std::max(result.maxLevels, plain);
-            result.tolerantMaxLevels = std::max(result.tolerantMaxLevels, tolerant);
-            for (std::size_t i = 0; i < kLevels.size(); ++i) {
-                if (plain <= kLevels[i]) result.within[i] += 1.0;
-                if (tolerant <= kLevels[i]) result.tolerantWithin[i] += 1.0;
+            int tolerant = 0;
+            if (mask(at)) {
+                ++counted;
+                tolerant = std::max(leastAround(here, b, x, y), leastAround(there, a, x, y));
+                squares += squaredError(here, there);
+                add(result, difference(here, there), tolerant);
             }
             const Pixel pixel = show(here, tolerant);
             shown.pixels.insert(shown.pixels.end(), pixel.begin(), pixel.end());
         }
-    const auto count = static_cast<double>(a.all.size());
+    if (counted == 0) throw Error("image.mask", "the mask leaves no pixel to compare");
+    const auto count = static_cast<double>(counted);
+    result.counted = count / static_cast<double>(a.all.size());
     result.meanLevels /= count;
     result.tolerantMeanLevels /= count;
     for (double& share : result.within) share /= count;
     for (double& share : result.tolerantWithin) share /= count;
     result.psnrDb = squares > 0.0 ? 10.0 * std::log10(255.0 * 255.0 * 3.0 * count / squares)
                                   : std::numeric_limits<double>::infinity();
+    const FloatImage floatA(first), floatB(second);
+    result.flip = summarize(flip(floatA, floatB), mask);
+    if (a.width > 2 * kSsimReach && a.height > 2 * kSsimReach)
+        result.ssim = summarize(ssim(floatA, floatB), ssimMask(mask, a.width, a.height)).mean;
     return {result, std::move(shown)};
 }
 
-render::Image crop(const render::Image& image, int x, int y, int width, int height) {
+render::Image crop(const render::Image& image, const Rectangle& part) {
+    const auto [x, y, width, height] = part;
     if (x < 0 || y < 0 || width < 1 || height < 1 || x > image.width - width ||
         y > image.height - height)
         throw Error("image.crop", "a crop of " + std::to_string(width) + "x" +
                                       std::to_string(height) + "+" + std::to_string(x) + "+" +
                                       std::to_string(y) + " reaches beyond a picture of " +
-                                      sizeOf(image));
-    render::Image part{width, height, {}};
+                                      std::to_string(image.width) + "x" +
+                                      std::to_string(image.height));
+    render::Image out{width, height, {}};
     const auto rowBytes = static_cast<std::ptrdiff_t>(width) * 4;
     for (int row = y; row < y + height; ++row) {
         const auto begin =
             image.pixels.begin() + (static_cast<std::ptrdiff_t>(row) * image.width + x) * 4;
-        part.pixels.insert(part.pixels.end(), begin, begin + rowBytes);
+        out.pixels.insert(out.pixels.end(), begin, begin + rowBytes);
     }
-    return part;
+    return out;
+}
+
+render::Image heatMap(const Plane& plane) {
+    constexpr std::array<std::array<float, 3>, 6> kColors{
+        {{0, 0, 4}, {84, 15, 109}, {187, 55, 84}, {249, 142, 9}, {250, 220, 90}, {252, 255, 245}}};
+    render::Image out{plane.width, plane.height, {}};
+    out.pixels.reserve(plane.values.size() * 4);
+    for (const float value : plane.values) {
+        const float place = std::clamp(value, 0.0F, 1.0F) * (kColors.size() - 1);
+        const std::size_t step =
+            std::min<std::size_t>(kColors.size() - 2, static_cast<std::size_t>(place));
+        const float rest = place - static_cast<float>(step);
+        for (std::size_t c = 0; c < 3; ++c)
+            out.pixels.push_back(static_cast<std::uint8_t>(
+                kColors[step][c] + rest * (kColors[step + 1][c] - kColors[step][c]) + 0.5F));
+        out.pixels.push_back(255);
+    }
+    return out;
 }
 
 }  // namespace farol::grade

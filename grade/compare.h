@@ -1,8 +1,10 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <utility>
 
+#include "grade/mask.h"
 #include "render/image.h"
 
 namespace farol::grade {
@@ -21,15 +23,21 @@ struct Comparison {
     double psnrDb = 0.0;  ///< over red, green and blue; infinity where they are equal
     /// Share of pixels, 0..1, whose difference is at most kLevels[i].
     std::array<double, kLevels.size()> within{}, tolerantWithin{};
+    double counted = 0.0;          ///< share of the pixels that the mask lets count, 0..1
+    Summary flip{};                ///< see grade/flip.h; the first picture is the reference
+    std::optional<double> ssim{};  ///< mean, see grade/ssim.h; nothing for pictures below 11x11 px
 };
 
-/// Throws Error image.size when the sizes differ or are zero. The second value shows where: the
-/// first picture faded to a quarter, the tolerant difference in red, eight times as strong.
+/// Compares the pixels that the mask lets count. Throws Error image.size when the sizes differ or
+/// are zero, image.mask when no pixel counts. The second value shows where: the first picture
+/// faded to a quarter, the tolerant difference in red, eight times as strong.
 std::pair<Comparison, render::Image> compare(const render::Image& first,
-                                             const render::Image& second);
+                                             const render::Image& second, const Mask& mask = {});
 
-/// The rectangle of `width` x `height` px whose top left pixel is at x, y from the top left of the
-/// picture. Throws Error image.crop when it is empty or reaches beyond the picture.
-render::Image crop(const render::Image& image, int x, int y, int width, int height);
+/// That part of the picture. Throws Error image.crop when it is empty or reaches beyond it.
+render::Image crop(const render::Image& image, const Rectangle& part);
+
+/// A plane of 0..1 as a picture: black, violet, red, orange, yellow, white.
+render::Image heatMap(const Plane& plane);
 
 }  // namespace farol::grade

@@ -210,6 +210,12 @@ TEST_CASE("compare crops what is larger, and shows where pictures differ") {
     CHECK(shown.pixels[1] == 0);
     CHECK(run("compare a.png c.png").status == 1);
     CHECK(run("compare a.png c.png --crop 96x64+10+20").status == 0);
+    const Outcome masked = run("compare a.png c.png --crop 96x64+10+20 --mask 96x32+0+0 --json");
+    CHECK(json::parse(masked.out).at("counted") == 0.5);
+    CHECK(run("compare a.png c.png --crop 96x64+10+20 --mask 96x64+0+0").status == 1);
+    CHECK(run("compare a.png b.png --mask-axes").status == 1);  // pure red is like an axis
+    CHECK(run("compare a.png a.png --mask-axes --heat h.png").status == 0);
+    CHECK(picture("h.png").pixels[0] == 0);
     CHECK(run("compare a.png c.png --crop 96x64+150+20").status == 1);
 }
 

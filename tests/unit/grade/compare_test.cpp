@@ -85,14 +85,45 @@ TEST_CASE("sizes that differ are refused") {
 TEST_CASE("a crop takes the pixels named, and none beyond") {
     Image image = filled(6, 5, 0);
     set(image, 2, 1, 50);
-    const Image part = crop(image, 2, 1, 4, 4);
+    const Image part = crop(image, {2, 1, 4, 4});
     CHECK(part.width == 4);
     CHECK(part.height == 4);
     CHECK(part.pixels.size() == 64);
     CHECK(part.pixels[0] == 50);
-    CHECK(crop(image, 0, 0, 6, 5) == image);
-    CHECK_THROWS_AS(crop(image, 3, 1, 4, 4), Error);
-    CHECK_THROWS_AS(crop(image, -1, 0, 2, 2), Error);
-    CHECK_THROWS_AS(crop(image, 0, 0, 0, 2), Error);
-    CHECK_THROWS_AS(crop(image, 0, 2147483647, 1, 2147483647), Error);
+    CHECK(crop(image, {0, 0, 6, 5}) == image);
+    CHECK_THROWS_AS(crop(image, {3, 1, 4, 4}), Error);
+    CHECK_THROWS_AS(crop(image, {-1, 0, 2, 2}), Error);
+    CHECK_THROWS_AS(crop(image, {0, 0, 0, 2}), Error);
+    CHECK_THROWS_AS(crop(image, {0, 2147483647, 1, 2147483647}), Error);
+}
+
+TEST_CASE("what a mask leaves out does not count") {
+    Image here = filled(6, 4, 100), there = here;
+    set(there, 5, 3, 255);
+    farol::grade::Mask mask;
+    farol::grade::hide(mask, 6, 4, {{5, 3, 9, 9}});
+    const auto found = compare(here, there, mask).first;
+    CHECK(found.maxLevels == 0);
+    CHECK(found.counted == Approx(23.0 / 24.0));
+    farol::grade::hide(mask, 6, 4, {{0, 0, 6, 4}});
+    CHECK_THROWS_AS(compare(here, there, mask), Error);
+}
+
+TEST_CASE("coordinate axes of either picture are left out with what is around them") {
+    Image here = filled(9, 9, 0), there = here;
+    for (int y = 0; y < 9; ++y) set(here, 4, y, 255);
+    set(there, 0, 0, 255);
+    farol::grade::Mask mask;
+    farol::grade::hideAxes(mask, here, there);
+    int counted = 0;
+    for (const auto one : mask.counts) counted += one;
+    CHECK(counted == 81 - 27 - 4);  // three columns, and the corner of two by two
+    CHECK(compare(here, there, mask).first.maxLevels == 0);
+}
+
+TEST_CASE("a heat map runs from black to white") {
+    const Image map = farol::grade::heatMap({3, 1, {0.0F, 1.0F, 7.0F}});
+    CHECK(map.pixels[0] == 0);
+    CHECK(map.pixels[4] == 252);
+    CHECK(map.pixels[8] == 252);
 }

@@ -9,12 +9,12 @@ namespace {
 
 /// Times are read as seconds and become the server's milliseconds.
 void addSeconds(CLI::App& command, const std::string& name, std::chrono::milliseconds& into,
-                const std::string& help) {
+                const std::string& help, double min = 0.001, double max = 86'400.0) {
     const auto set = [&into](double seconds) {
         into = std::chrono::milliseconds(static_cast<std::int64_t>(seconds * 1000.0));
     };
     CLI::Option* option = command.add_option_function<double>(name, set, help);
-    takesNumber(option, 0.001, 86'400.0);
+    takesNumber(option, min, max);
     option->default_str(std::to_string(into.count() / 1000));
 }
 
@@ -61,6 +61,19 @@ void addServe(CLI::App& root, Action& action) {
         ->add_option("--cors", options->corsOrigin,
                      "origin whose pages may call the service, or *; default none")
         ->type_name("ORIGIN");
+    command
+        ->add_option("--data", options->dataDir,
+                     "folder to keep uploaded scenes in; default: in memory, until the end")
+        ->type_name("DIR");
+    add("--store-bytes", options->storeBytes,
+        "of uploaded scenes, bytes; 0: 1 GiB with --data, else 128 MiB", 0, 1e15);
+    addSeconds(*command, "--expire", options->expire,
+               "how long an uploaded scene is kept, s; 0: for good", 0.0, 1e9);
+    command
+        ->add_option("--token", options->token,
+                     "what storing and deleting needs: \"Authorization: Bearer TOKEN\"")
+        ->envname("FAROL_TOKEN")
+        ->type_name("TOKEN");
     command->callback(
         [&action, options] { action = [options](Report&) { return run(*options); }; });
 }

@@ -5,6 +5,7 @@
 
 #include "cli/command.h"
 #include "cli/files.h"
+#include "scene/archive.h"
 
 namespace farol::cli {
 
@@ -16,6 +17,10 @@ render::Job openSource(const std::string& path, const std::string& assets, bool 
     job.xml = readInput(path);
     job.assets = std::make_shared<scene::FolderAssets>(assets.empty() ? folderOf(path) : assets);
     job.strict = strict;
+    if (scene::isArchive(job.xml)) {  // a bundle; its files are all there is
+        job.archive = std::move(job.xml);
+        job.xml.clear();
+    }
     return job;
 }
 

@@ -4,12 +4,14 @@
 #include <cctype>
 
 #include "generator/registry.h"
+#include "scene/archive.h"
 #include "scene/reader.h"
 
 namespace farol::render {
 namespace {
 
-constexpr int kProfileCopies = 65;  // of a profile shown on its own
+constexpr std::size_t kBytesOfOne = std::size_t{4} << 20;  // of files, that count as a scene
+constexpr int kProfileCopies = 65;                         // of a profile shown on its own
 
 /// The job's own document in front of its assets, so that a mesh file alone can be loaded.
 class WithDocument final : public scene::Assets {
@@ -77,6 +79,17 @@ bool isProfile(const scene::Model& model, const scene::Assets& assets) {
     return false;
 }
 
+/// The job that an archive holds.
+Job unpacked(const Job& packed) {
+    scene::Bundle bundle = scene::readArchive(packed.archive);
+    Job job = packed;
+    job.archive.clear();
+    job.name = bundle.main;
+    job.xml = bundle.files[bundle.main];
+    job.assets = std::make_shared<scene::BundleAssets>(std::move(bundle.files));
+    return job;
+}
+
 /// The request's entity, in place of the scene's.
 void takeEntity(Prepared& prepared, const std::string& file) {
     const auto path = scene::locate(*prepared.assets, file, {}, prepared.diagnostics);
@@ -102,6 +115,7 @@ void refuseErrors(Diagnostics& diagnostics, bool strict) {
 }
 
 Prepared prepare(const Job& job) {
+    if (!job.archive.empty()) return prepare(unpacked(job));
     Prepared prepared;
     prepared.assets = job.assets ? job.assets : std::make_shared<scene::BundleAssets>();
     const std::string kind = ending(job.name);
@@ -135,7 +149,11 @@ std::shared_ptr<const Prepared> PreparedCache::get(const Job& job) {
     const std::string key = job.identity + '\n' + job.name + '\n' + (job.strict ? 's' : 'l') +
                             job.options.entity.value_or("");
     if (const auto* known = kept_.find(key)) return *known;
-    return kept_.put(key, std::make_shared<const Prepared>(prepare(job)), 1);
+    auto fresh = std::make_shared<const Prepared>(prepare(job));
+    std::size_t cost = 1;
+    if (const auto* bundle = dynamic_cast<const scene::BundleAssets*>(fresh->assets.get()))
+        cost += bundle->bytes() / kBytesOfOne;  // its files are kept with it
+    return kept_.put(key, std::move(fresh), cost);
 }
 
 }  // namespace farol::render

@@ -24,6 +24,9 @@ struct Job {
     /// Names the document and every file beside it: a digest that changes with any of them. Where
     /// given, the scene that was read is kept under it for the next picture; may be empty.
     std::string identity = {};
+    /// A zip or tar of the document and its files (scene/archive.h), in place of name, xml and
+    /// assets; it is opened where the scene is read. Empty: there is none.
+    std::string archive = {};
 };
 
 /// What was drawn and what was skipped.

@@ -75,31 +75,40 @@ struct BundleAssets::Digests {
     std::map<std::string, std::string> made;
 };
 
-BundleAssets::BundleAssets(std::map<std::string, std::string> files)
-    : files_(std::move(files)), digests_(std::make_shared<Digests>()) {
-    std::erase_if(files_, [](const auto& entry) { return !isSafePath(entry.first); });
+BundleAssets::BundleAssets(Files files) : digests_(std::make_shared<Digests>()) {
+    std::erase_if(files, [](const auto& entry) { return !isSafePath(entry.first); });
+    files_ = std::make_shared<const Files>(std::move(files));
+}
+
+BundleAssets::BundleAssets(std::shared_ptr<const Files> files)
+    : files_(std::move(files)), digests_(std::make_shared<Digests>()) {}
+
+std::size_t BundleAssets::bytes() const {
+    std::size_t sum = 0;
+    for (const auto& [path, content] : *files_) sum += content.size();
+    return sum;
 }
 
 std::vector<std::string> BundleAssets::list() const {
     std::vector<std::string> paths;
-    for (const auto& [path, bytes] : files_) {
+    for (const auto& [path, bytes] : *files_) {
         if (paths.size() == kMaxListed) break;
         paths.push_back(path);
     }
     return paths;
 }
 
-bool BundleAssets::has(const std::string& path) const { return files_.count(path) != 0; }
+bool BundleAssets::has(const std::string& path) const { return files_->count(path) != 0; }
 
 std::optional<std::string> BundleAssets::read(const std::string& path) const {
-    const auto found = files_.find(path);
-    if (found == files_.end()) return std::nullopt;
+    const auto found = files_->find(path);
+    if (found == files_->end()) return std::nullopt;
     return found->second;
 }
 
 std::string BundleAssets::version(const std::string& path) const {
-    const auto found = files_.find(path);
-    if (found == files_.end()) return "";
+    const auto found = files_->find(path);
+    if (found == files_->end()) return "";
     const std::lock_guard lock(digests_->mutex);
     std::string& digest = digests_->made[path];
     if (digest.empty()) digest = contentDigest(found->second);

@@ -31,7 +31,12 @@ class Assets {
 /// Files in memory: the parts of an upload.
 class BundleAssets final : public Assets {
   public:
-    explicit BundleAssets(std::map<std::string, std::string> files = {});
+    using Files = std::map<std::string, std::string>;
+    /// Files of other than safe paths are left out.
+    explicit BundleAssets(Files files = {});
+    /// Precondition: all paths are safe.
+    explicit BundleAssets(std::shared_ptr<const Files> files);
+    std::size_t bytes() const;  ///< of all files
     std::vector<std::string> list() const override;
     bool has(const std::string& path) const override;
     std::optional<std::string> read(const std::string& path) const override;
@@ -39,7 +44,7 @@ class BundleAssets final : public Assets {
 
   private:
     struct Digests;  ///< made on demand; copies of a bundle share them
-    std::map<std::string, std::string> files_;
+    std::shared_ptr<const Files> files_;
     std::shared_ptr<Digests> digests_;
 };
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "render/renderer.h"
+#include "scene/bundle.h"
 
 /// The narrow door between the service and whatever draws. A job is a plain function of bytes and
 /// options, so what stands behind the door may be threads, processes or another machine.
@@ -64,6 +65,8 @@ class Backend {
     virtual Done<render::Picture> render(const render::Job& job, const std::string& tag) = 0;
     virtual Done<render::SceneReport> inspect(const render::Job& job) = 0;
     virtual Done<std::string> mesh(const MeshJob& job) = 0;
+    /// The files of an archive (scene/archive.h).
+    virtual Done<scene::Bundle> unpack(const std::string& archive) = 0;
     /// Draws a tiny known scene and checks its pixels. Throws std::runtime_error with the reason
     /// when they are wrong.
     virtual void check() = 0;

@@ -1,5 +1,7 @@
 #include "server/json.h"
 
+#include <ctime>
+
 #include "server/http/uri.h"
 #include "server/problem.h"
 
@@ -9,6 +11,18 @@ using nlohmann::json;
 
 namespace {
 json toJson(const glm::dvec3& v) { return json::array({v.x, v.y, v.z}); }
+}  // namespace
+
+namespace {
+/// RFC 3339, to the second.
+std::string timestamp(store::Time time) {
+    const std::time_t seconds = std::chrono::system_clock::to_time_t(time);
+    std::tm parts{};
+    gmtime_r(&seconds, &parts);
+    char text[40];
+    std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
+    return text;
+}
 }  // namespace
 
 json toJson(const scene::Camera& camera) {
@@ -51,6 +65,28 @@ json linksOf(const ServedScene& scene) {
             {"source", self + "/source"},
             {"image", self + "/image"},
             {"thumbnail", self + "/thumbnail"}};
+}
+
+json describe(const ServedScene& scene, const render::SceneReport& report,
+              const Diagnostics& errors) {
+    json out = errors.empty() ? toJson(report) : json::object();
+    out["id"] = scene.id;
+    out["valid"] = errors.empty();
+    out["links"] = linksOf(scene);
+    if (!errors.empty()) out["diagnostics"] = toJson(errors);
+    if (out.value("title", "").empty()) {
+        const std::string name = scene.id.substr(scene.id.rfind('/') + 1);
+        out["title"] = name;
+    }
+    if (!out.contains("description")) out["description"] = "";
+    out["upload"] = scene.stored.has_value();
+    if (!scene.stored) return out;
+    out["public"] = scene.stored->listed;
+    out["bytes"] = scene.stored->bytes;
+    out["expires"] = scene.stored->expires == store::Time::max()
+                         ? json()
+                         : json(timestamp(scene.stored->expires));
+    return out;
 }
 
 }  // namespace farol::server

@@ -15,4 +15,8 @@ nlohmann::json toJson(const render::SceneReport& report);
 /// Paths of a served scene's resources.
 nlohmann::json linksOf(const ServedScene& scene);
 
+/// All that is told of a scene in the gallery or by its address.
+nlohmann::json describe(const ServedScene& scene, const render::SceneReport& report,
+                        const Diagnostics& errors);
+
 }  // namespace farol::server

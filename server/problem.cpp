@@ -10,16 +10,15 @@ using nlohmann::json;
 
 int statusOf(const std::string& code) {
     static const std::map<std::string, int> kExact = {
-        {"http.not-found", 404},      {"http.method", 405},
-        {"http.not-acceptable", 406}, {"http.length-required", 411},
-        {"limit.body", 413},          {"http.uri-too-long", 414},
-        {"http.media-type", 415},     {"http.content-encoding", 415},
-        {"busy.queue", 503},          {"busy.deadline", 503},
-        {"busy.draining", 503},       {"worker.crashed", 503},
-        {"worker.killed", 503},       {"worker.quarantine", 503},
+        {"http.not-found", 404},      {"http.method", 405},          {"http.unauthorized", 401},
+        {"limit.store", 413},         {"store.full", 503},           {"store.failed", 503},
+        {"http.not-acceptable", 406}, {"http.length-required", 411}, {"limit.body", 413},
+        {"http.uri-too-long", 414},   {"http.media-type", 415},      {"http.content-encoding", 415},
+        {"busy.queue", 503},          {"busy.deadline", 503},        {"busy.draining", 503},
+        {"worker.crashed", 503},      {"worker.killed", 503},        {"worker.quarantine", 503},
     };
     if (const auto found = kExact.find(code); found != kExact.end()) return found->second;
-    for (const char* family : {"option.", "http.", "xml."})
+    for (const char* family : {"option.", "http.", "xml.", "bundle."})
         if (code.starts_with(family)) return 400;
     return 422;
 }
@@ -27,6 +26,7 @@ int statusOf(const std::string& code) {
 std::string statusTitle(int status) {
     static const std::map<int, std::string> kTitles = {
         {400, "Bad Request"},
+        {401, "Unauthorized"},
         {404, "Not Found"},
         {405, "Method Not Allowed"},
         {406, "Not Acceptable"},

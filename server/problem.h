@@ -9,8 +9,8 @@
 /// Errors as clients see them: RFC 9457 problem documents, one for every failure.
 namespace farol::server {
 
-/// The status of a caller's fault by the family of its code: option.* and http.* 400 (unless
-/// listed otherwise), xml.* 400, limit.body 413, everything else 422.
+/// The status of a caller's fault by the family of its code: option.*, http.*, xml.* and bundle.*
+/// 400 (unless listed otherwise), limit.body and limit.store 413, everything else 422.
 int statusOf(const std::string& code);
 
 /// "Bad Request" and so on.

@@ -105,7 +105,7 @@ http::Response Service::getImage(const Call& call, const http::Fields& preset) {
     Parameters wanted = readParameters(call.request.query, {true, true, {}, preset});
     const ServedScene scene = sceneOf(call);
     chooseFormat(wanted, call.request.header("accept"));
-    render::Job job = jobOf(scene);
+    render::Job job = jobOfScene(scene);
     job.options = wanted.picture;
     job.strict = wanted.strict;
     std::string options = wanted.strict ? "strict\n" : "";

@@ -3,10 +3,12 @@
 #include <nlohmann/json.hpp>
 
 #include "generator/registry.h"
+#include "scene/words.h"
 #include "server/etag.h"
 #include "server/json.h"
 #include "server/problem.h"
 #include "server/service.h"
+#include "server/upload.h"
 
 namespace farol::server {
 
@@ -48,14 +50,28 @@ std::vector<std::string> splitWords(const std::string& text) {
 }  // namespace
 
 ServedScene Service::sceneOf(const Call& call) const {
-    auto scene = scenes_.find(call.parameter);
-    if (!scene) throw Error("http.not-found", "There is no scene \"" + call.parameter + "\" here.");
+    std::optional<ServedScene> scene;
+    if (!store::isStoredId(call.parameter))
+        scene = scenes_.find(call.parameter);
+    else if (const auto stored = store_->get(call.parameter))
+        scene = uploadOf(stored->entry);
+    if (!scene)
+        throw Error("http.not-found",
+                    "There is no scene " + scene::quoted(call.parameter) + " here.");
     return std::move(*scene);
 }
 
-render::Job Service::jobOf(const ServedScene& scene) const {
+render::Job Service::jobOfScene(const ServedScene& scene) const {
+    const auto goneAway = [&] {
+        return Error("http.not-found", "The scene " + scene::quoted(scene.id) + " went away.");
+    };
+    if (scene.stored) {
+        const auto stored = store_->get(scene.id);
+        if (!stored) throw goneAway();
+        return jobOf(stored->bundle);
+    }
     auto xml = scenes_.source(scene);
-    if (!xml) throw Error("http.not-found", "The scene \"" + scene.id + "\" went away.");
+    if (!xml) throw goneAway();
     render::Job job;
     job.name = scene.fileName();
     job.xml = std::move(*xml);
@@ -73,38 +89,24 @@ std::shared_ptr<const Service::Known> Service::known(const ServedScene& scene) {
     auto fresh = std::make_shared<Known>();
     fresh->version = scene.version;
     try {
-        fresh->report = backend_.inspect(jobOf(scene)).result;
+        fresh->report = backend_.inspect(jobOfScene(scene)).result;
     } catch (const Error& error) {
         fresh->errors = error.diagnostics();
     }
-    const std::lock_guard lock(knownMutex_);
-    if (known_.size() >= kMaxKnown) known_.clear();
-    known_[scene.id] = fresh;
+    remember(scene.id, fresh);
     return fresh;
 }
 
-namespace {
-
-json describe(const ServedScene& scene, const render::SceneReport& report,
-              const Diagnostics& errors) {
-    json out = errors.empty() ? toJson(report) : json::object();
-    out["id"] = scene.id;
-    out["valid"] = errors.empty();
-    out["links"] = linksOf(scene);
-    if (!errors.empty()) out["diagnostics"] = toJson(errors);
-    if (out.value("title", "").empty()) {
-        const std::string name = scene.id.substr(scene.id.rfind('/') + 1);
-        out["title"] = name;
-    }
-    if (!out.contains("description")) out["description"] = "";
-    return out;
+void Service::remember(const std::string& id, std::shared_ptr<const Known> facts) {
+    const std::lock_guard lock(knownMutex_);
+    if (known_.size() >= kMaxKnown) known_.clear();
+    known_[id] = std::move(facts);
 }
-
-}  // namespace
 
 http::Response Service::listScenes(const Call& call) {
     const Parameters wanted = readParameters(call.request.query, {false, false, {"page"}, {}});
-    const std::vector<ServedScene> all = scenes_.list();
+    std::vector<ServedScene> all = scenes_.list();
+    for (const store::Entry& entry : store_->list()) all.push_back(uploadOf(entry));
     const int pages = std::max(1, (static_cast<int>(all.size()) + kPageSize - 1) / kPageSize);
     const int page = wholeNumber("page", wanted.ownValue("page", "1"), 1, pages);
     json scenes = json::array();
@@ -130,7 +132,7 @@ http::Response Service::getScene(const Call& call) {
 
 http::Response Service::getSource(const Call& call) {
     readParameters(call.request.query, {});
-    return tagged(call, jobOf(sceneOf(call)).xml, "application/xml");
+    return tagged(call, jobOfScene(sceneOf(call)).xml, "application/xml");
 }
 
 http::Response Service::listPrimitives(const Call& call) {

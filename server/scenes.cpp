@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "scene/digest.h"
+#include "server/store/scene_store.h"
 
 namespace farol::server {
 namespace {
@@ -53,7 +54,9 @@ std::vector<ServedScene> SceneFolder::list() const {
     if (root_.empty()) return scenes;
     std::map<std::string, std::string> versions;  // by folder: many scenes may share one
     for (const std::string& path : files_.list()) {
-        if (!path.ends_with(kSuffix) || path.size() == kSuffix.size() || isPart(path)) continue;
+        if (!path.ends_with(kSuffix) || path.size() == kSuffix.size() || isPart(path) ||
+            store::isStoredId(idOf(path)))
+            continue;
         ServedScene scene{idOf(path), path, ""};
         auto [entry, isNew] = versions.try_emplace(folderOf(path));
         if (isNew) entry->second = versionOf(*assets(scene));
@@ -71,7 +74,7 @@ std::vector<ServedScene> SceneFolder::list() const {
 }
 
 std::optional<ServedScene> SceneFolder::find(const std::string& id) const {
-    if (root_.empty() || !scene::isSafePath(id)) return std::nullopt;
+    if (root_.empty() || !scene::isSafePath(id) || store::isStoredId(id)) return std::nullopt;
     for (const std::string& path : {id + "/" + std::string(kMainFile), id + std::string(kSuffix)}) {
         if (!files_.has(path) || idOf(path) != id) continue;
         ServedScene scene{id, path, ""};

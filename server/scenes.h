@@ -7,18 +7,24 @@
 
 #include "render/renderer.h"
 #include "scene/assets.h"
+#include "server/store/scene_store.h"
 
 namespace farol::server {
 
-/// One scene of the served folder. The id is its path without ".xml", or its folder's path when
-/// the file is named scene.xml: "solar-system" is solar-system/scene.xml or solar-system.xml.
+/// One scene of the served folder, or an upload. In the folder the id is its path without ".xml",
+/// or its folder's path when the file is named scene.xml: "solar-system" is solar-system/scene.xml
+/// or solar-system.xml.
 struct ServedScene {
     std::string id;
     std::string path;     ///< of the document, below the served folder
     std::string version;  ///< changes when the document or a file beside it may have changed
+    std::optional<store::Entry> stored = {};  ///< of an upload: it is not in the folder
 
     std::string fileName() const { return path.substr(path.rfind('/') + 1); }
 };
+
+/// The scene that a stored one is.
+inline ServedScene uploadOf(const store::Entry& entry) { return {entry.id, "", entry.id, entry}; }
 
 /// The folder that is served: looked at anew on every call, so that edits show at once. Nothing
 /// outside it is ever found, whatever the id or the links inside say.

@@ -9,6 +9,8 @@
 #include <thread>
 
 #include "server/server.h"
+#include "server/store/disk_store.h"
+#include "server/store/memory_store.h"
 #include "server/worker/pool.h"
 
 namespace farol::server {
@@ -35,6 +37,18 @@ void checkOptions(const ServeOptions& options) {
         throw Error("asset.missing", "there is no folder " + options.scenesDir, {}, "scenes");
 }
 
+std::shared_ptr<store::SceneStore> openStore(const ServeOptions& options, Logger& logger) {
+    const bool onDisk = !options.dataDir.empty();
+    store::StoreLimits limits;
+    limits.bytes = std::uint64_t{onDisk ? 1024U : 128U} << 20U;
+    if (options.storeBytes > 0) limits.bytes = options.storeBytes;
+    limits.expire = std::chrono::ceil<std::chrono::seconds>(options.expire);
+    if (!onDisk) return std::make_shared<store::MemoryStore>(limits);
+    return std::make_shared<store::DiskStore>(
+        options.dataDir, limits,
+        [&logger](const std::string& message) { logger.event("store", message); });
+}
+
 std::string urlOf(const std::string& host, int port) {
     const bool v6 = host.find(':') != std::string::npos;
     return "http://" + (v6 ? "[" + host + "]" : host) + ":" + std::to_string(port);
@@ -51,6 +65,7 @@ int serve(const ServeOptions& options) {
     sigaddset(&signals, SIGINT);
     pthread_sigmask(SIG_BLOCK, &signals, nullptr);
     signal(SIGPIPE, SIG_IGN);
+    signal(SIGXFSZ, SIG_IGN);  // a write beyond a limit fails, as on a full disk
 
     worker::PoolOptions pool;
     pool.workers = options.workers;
@@ -70,6 +85,8 @@ int serve(const ServeOptions& options) {
     service.scenesDir = options.scenesDir;
     service.maxBodyBytes = options.maxBodyBytes;
     service.corsOrigin = options.corsOrigin;
+    service.store = openStore(options, logger);
+    service.token = options.token;
     Server server(options.listen, service, backend);
     server.start();
     std::printf("listening on %s\n", urlOf(options.listen.host, server.port()).c_str());

@@ -18,7 +18,11 @@ struct ServeOptions {
     QueueLimits queue{0, std::chrono::milliseconds(2'000), std::chrono::milliseconds(10'000)};
     ///< queue.waiting 0: four a worker, at least 16
     std::size_t maxBodyBytes = 16U << 20;
-    std::string corsOrigin;  ///< empty: no CORS headers
+    std::string corsOrigin;        ///< empty: no CORS headers
+    std::string dataDir;           ///< of uploaded scenes; empty: they live in memory
+    std::uint64_t storeBytes = 0;  ///< of uploads; 0: 1 GiB in dataDir, 128 MiB in memory
+    std::chrono::milliseconds expire{7LL * 24 * 3600 * 1000};  ///< of uploads; 0: never
+    std::string token;  ///< that writing needs; empty: $FAROL_TOKEN, else none
 };
 
 /// Serves until SIGTERM or SIGINT, then lets the requests in flight end. Prints one line,

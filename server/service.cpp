@@ -6,6 +6,7 @@
 #include "scene/embedded.h"
 #include "server/etag.h"
 #include "server/problem.h"
+#include "server/store/memory_store.h"
 #include "server/version.h"
 
 namespace farol {
@@ -24,6 +25,8 @@ constexpr const char* kPagePolicy =
     "connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 // A scene's source is XML from strangers: a browser that opens it must not run what is in it.
 constexpr const char* kDataPolicy = "default-src 'none'; frame-ancestors 'none'; sandbox";
+
+constexpr std::uint64_t kMemoryStoreBytes = std::uint64_t{128} << 20U;
 
 std::string_view embedded(const std::string& name) {
     for (const EmbeddedFile& file : webFiles())
@@ -45,6 +48,9 @@ void noParameters(const Call& call) { readParameters(call.request.query, {}); }
 
 Service::Service(ServiceOptions options, Backend& backend, Logger& logger)
     : options_(std::move(options)),
+      store_(options_.store ? options_.store
+                            : std::make_shared<store::MemoryStore>(
+                                  store::StoreLimits{kMemoryStoreBytes, 10'000})),
       backend_(backend),
       logger_(logger),
       scenes_(options_.scenesDir),
@@ -74,7 +80,9 @@ std::vector<Route> Service::routes() {
         {"POST", "/v1/render", call(&Service::postRender)},
         {"POST", "/v1/validate", call(&Service::postValidate)},
         {"GET", "/v1/scenes", call(&Service::listScenes)},
+        {"POST", "/v1/scenes", call(&Service::postScene)},
         {"GET", "/v1/scenes/{id}", call(&Service::getScene)},
+        {"DELETE", "/v1/scenes/{id}", call(&Service::deleteScene)},
         {"GET", "/v1/scenes/{id}/source", call(&Service::getSource)},
         {"GET", "/v1/scenes/{id}/image", image({})},
         {"GET", "/v1/scenes/{id}/thumbnail",
@@ -94,7 +102,10 @@ http::Response Service::handle(const http::Request& request, http::Body& body) {
             problem.headers.emplace_back("Allow", router_.allowed(request.path));
         if (problem.code == "http.media-type")
             problem.headers.emplace_back("Accept-Post",
-                                         "application/xml, text/xml, multipart/form-data");
+                                         "application/xml, text/xml, multipart/form-data, "
+                                         "application/zip, application/x-tar, application/gzip");
+        if (problem.status == 401)
+            problem.headers.emplace_back("WWW-Authenticate", "Bearer realm=\"farol\"");
         response = problemResponse(problem, request.id);
     } catch (const Busy& busy) {
         response = problemResponse({503,
@@ -134,11 +145,12 @@ void Service::finish(const http::Request& request, http::Response& response) con
     if (options_.corsOrigin.empty()) return;
     response.set("Access-Control-Allow-Origin", options_.corsOrigin);
     response.set("Access-Control-Expose-Headers",
-                 "ETag, Server-Timing, X-Request-Id, X-Farol-Stats, X-Farol-Camera, "
+                 "ETag, Location, Server-Timing, X-Request-Id, X-Farol-Stats, X-Farol-Camera, "
                  "X-Farol-Diagnostics, Retry-After");
     if (request.method == "OPTIONS") {
-        response.set("Access-Control-Allow-Methods", "GET, HEAD, POST, OPTIONS");
-        response.set("Access-Control-Allow-Headers", "Content-Type, If-None-Match, X-Request-Id");
+        response.set("Access-Control-Allow-Methods", "GET, HEAD, POST, DELETE, OPTIONS");
+        response.set("Access-Control-Allow-Headers",
+                     "Content-Type, If-None-Match, Authorization, X-Request-Id");
         response.set("Access-Control-Max-Age", "600");
     }
 }
@@ -148,6 +160,7 @@ void Service::finished(const http::Request& request, const http::Response& respo
     const std::string route = router_.patternOf(request.path);
     metrics_.request(route.empty() ? "none" : route, response.status, milliseconds);
     logger_.request(request, response, milliseconds, sent);
+    sweep();
 }
 
 http::Response Service::page(const Call& call, const std::string& file, const std::string& type) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -13,13 +14,16 @@
 #include "server/parameters.h"
 #include "server/router.h"
 #include "server/scenes.h"
+#include "server/store/scene_store.h"
 
 namespace farol::server {
 
 struct ServiceOptions {
     std::string scenesDir;  ///< empty: no scenes are served
     std::size_t maxBodyBytes = 16U << 20;
-    std::string corsOrigin;  ///< Access-Control-Allow-Origin; empty: not sent
+    std::string corsOrigin;                    ///< Access-Control-Allow-Origin; empty: not sent
+    std::shared_ptr<store::SceneStore> store;  ///< of uploads; null: a small one in memory
+    std::string token;                         ///< that writing to the store needs; empty: none
 };
 
 /// The REST interface (docs/http.md): what the routes do, without sockets and without GL.
@@ -55,6 +59,8 @@ class Service final : public http::Handler {
     http::Response postRender(const Call& call);
     http::Response postValidate(const Call& call);
     http::Response listScenes(const Call& call);
+    http::Response postScene(const Call& call);
+    http::Response deleteScene(const Call& call);
     http::Response getScene(const Call& call);
     http::Response getSource(const Call& call);
     http::Response getImage(const Call& call, const http::Fields& preset);
@@ -62,11 +68,16 @@ class Service final : public http::Handler {
     http::Response getPrimitive(const Call& call);
 
     ServedScene sceneOf(const Call& call) const;
-    render::Job jobOf(const ServedScene& scene) const;
+    render::Job jobOfScene(const ServedScene& scene) const;
+    void authorize(const Call& call) const;
     std::shared_ptr<const Known> known(const ServedScene& scene);
+    void remember(const std::string& id, std::shared_ptr<const Known> facts);
     void finish(const http::Request& request, http::Response& response) const;
+    void sweep();
 
     const ServiceOptions options_;
+    const std::shared_ptr<store::SceneStore> store_;
+    std::atomic<std::chrono::steady_clock::rep> swept_{0};  ///< when the store last expired scenes
     Backend& backend_;
     Logger& logger_;
     Metrics metrics_;

@@ -1,9 +1,11 @@
 #include "server/upload.h"
 
 #include <algorithm>
-#include <map>
+#include <iterator>
 
+#include "scene/archive.h"
 #include "scene/assets.h"
+#include "scene/digest.h"
 #include "scene/words.h"
 #include "server/multipart.h"
 
@@ -11,12 +13,7 @@ namespace farol::server {
 namespace {
 
 std::string mediaType(const std::string& header) {
-    std::string type = header.substr(0, header.find(';'));
-    while (!type.empty() && (type.back() == ' ' || type.back() == '\t')) type.pop_back();
-    std::transform(type.begin(), type.end(), type.begin(), [](char c) {
-        return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-    });
-    return type;
+    return scene::lowerCase(scene::trimmed(std::string_view(header).substr(0, header.find(';'))));
 }
 
 // Some clients send "C:\folder\file" or a path with a leading "./".
@@ -32,16 +29,17 @@ std::string pathOf(const Part& part) {
     return path;
 }
 
-bool isSceneName(const std::string& path) {
-    return path.size() > 4 && mediaType(path.substr(path.size() - 4)) == ".xml";
+render::Job jobOfArchive(std::string bytes) {
+    render::Job job;
+    job.archive = std::move(bytes);
+    job.assets = std::make_shared<scene::BundleAssets>();
+    job.identity = scene::contentDigest(job.archive);
+    return job;
 }
 
 Upload fromParts(std::vector<Part> parts) {
     Upload upload;
-    std::map<std::string, std::string> files;
-    bool found = false;
-    std::string onlyXml;
-    int xmlFiles = 0;
+    scene::Bundle bundle;
     for (Part& part : parts) {
         if (part.name == "options" && part.fileName.empty()) {
             upload.optionsJson = std::move(part.content);
@@ -49,30 +47,59 @@ Upload fromParts(std::vector<Part> parts) {
         }
         if (part.name == "scene" && part.fileName.empty()) part.fileName = "scene.xml";
         const std::string path = pathOf(part);
-        if (files.count(path) != 0)
+        if (bundle.files.count(path) != 0)
             throw Error("http.multipart", "The file " + scene::quoted(path) + " is there twice.");
         if (part.name == "scene") {
-            if (found) throw Error("http.multipart", "There are two parts named \"scene\".");
-            found = true;
-            upload.job.name = path;
-            upload.job.xml = part.content;
-        } else if (isSceneName(path)) {
-            onlyXml = path;
-            ++xmlFiles;
+            if (!bundle.main.empty())
+                throw Error("http.multipart", "There are two parts named \"scene\".");
+            bundle.main = path;
         }
-        files[path] = std::move(part.content);
+        bundle.files[path] = std::move(part.content);
     }
-    if (!found && xmlFiles == 1) {  // no part is called scene, but only one can be meant
-        found = true;
-        upload.job.name = onlyXml;
-        upload.job.xml = files[onlyXml];
+    if (bundle.main.empty() && bundle.files.size() == 1 &&
+        scene::isArchive(bundle.files.begin()->second))
+        bundle.main = bundle.files.begin()->first;
+    if (bundle.main.empty()) bundle.main = scene::mainOf(bundle.files);
+    if (scene::isArchive(bundle.files[bundle.main])) {
+        if (bundle.files.size() > 1)
+            throw Error("http.multipart", "An archive comes alone, without other files.");
+        upload.job = jobOfArchive(std::move(bundle.files[bundle.main]));
+    } else {
+        upload.bundle = std::make_shared<const scene::Bundle>(std::move(bundle));
+        upload.job = jobOf(upload.bundle);
     }
-    if (!found) throw Error("http.multipart", "There is no part named \"scene\".", {}, "scene");
-    upload.job.assets = std::make_shared<scene::BundleAssets>(std::move(files));
+    return upload;
+}
+
+bool isArchiveType(const std::string& type) {
+    static constexpr const char* kTypes[] = {"application/zip",    "application/x-zip-compressed",
+                                             "application/x-tar",  "application/gzip",
+                                             "application/x-gzip", "application/octet-stream"};
+    return std::find(std::begin(kTypes), std::end(kTypes), type) != std::end(kTypes);
+}
+
+Upload fromArchive(std::string bytes, const std::string& type) {
+    if (!scene::isArchive(bytes)) {
+        const bool said = type != "application/octet-stream";
+        throw Error(said ? "bundle.damaged" : "http.media-type",
+                    "The body is no zip and no tar file; XML is sent as application/xml.");
+    }
+    Upload upload;
+    upload.job = jobOfArchive(std::move(bytes));
     return upload;
 }
 
 }  // namespace
+
+render::Job jobOf(const std::shared_ptr<const scene::Bundle>& bundle) {
+    render::Job job;
+    job.name = bundle->main;
+    job.xml = bundle->files.at(bundle->main);
+    job.assets = std::make_shared<scene::BundleAssets>(
+        std::shared_ptr<const scene::BundleAssets::Files>(bundle, &bundle->files));
+    job.identity = scene::digestOf(*bundle);
+    return job;
+}
 
 Upload readUpload(const http::Request& request, http::Body& body, std::size_t maxBytes) {
     const auto encoding = request.header("content-encoding");
@@ -82,18 +109,23 @@ Upload readUpload(const http::Request& request, http::Body& body, std::size_t ma
     const std::string type = mediaType(contentType);
     Upload upload;
     if (type == "application/xml" || type == "text/xml") {
-        upload.job.xml = body.read(maxBytes);
-        upload.job.assets = std::make_shared<scene::BundleAssets>();
+        upload.bundle = std::make_shared<const scene::Bundle>(
+            scene::Bundle{"scene.xml", {{"scene.xml", body.read(maxBytes)}}});
+        upload.job = jobOf(upload.bundle);
     } else if (type == "multipart/form-data") {
         const auto boundary = boundaryOf(contentType);
         if (!boundary) throw Error("http.multipart", "The Content-Type has no usable boundary.");
         upload = fromParts(parseMultipart(body.read(maxBytes), *boundary));
+    } else if (isArchiveType(type)) {
+        upload = fromArchive(body.read(maxBytes), type);
     } else {
         throw Error("http.media-type",
-                    "A scene is sent as application/xml, text/xml or multipart/form-data, not " +
+                    "A scene is sent as application/xml, text/xml, multipart/form-data, "
+                    "application/zip, application/x-tar or application/gzip, not " +
                         scene::shown(type) + ".");
     }
-    if (upload.job.xml.empty()) throw Error("xml.empty", "The scene is empty: there is no XML.");
+    if (upload.job.xml.empty() && upload.job.archive.empty())
+        throw Error("xml.empty", "The scene is empty: there is no XML.");
     return upload;
 }
 

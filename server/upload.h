@@ -1,21 +1,29 @@
 #pragma once
 
+#include <memory>
 #include <string>
 
 #include "render/renderer.h"
+#include "scene/bundle.h"
 #include "server/http/message.h"
 
 namespace farol::server {
 
 /// A scene as it came in the body of a request.
 struct Upload {
-    render::Job job;          ///< name, xml and assets; the options are still to be set
-    std::string optionsJson;  ///< the part `options`, or empty
+    /// The document and its files, or an archive of them that is still to be opened; with an
+    /// identity, without options.
+    render::Job job;
+    std::shared_ptr<const scene::Bundle> bundle;  ///< of the job; null for an archive
+    std::string optionsJson;                      ///< the part `options`, or empty
 };
 
-/// Reads application/xml or text/xml (the scene itself), or multipart/form-data with the part
-/// `scene` and the files it names. Throws Error http.content-encoding, http.media-type,
-/// limit.body, http.multipart, http.body, xml.empty.
+/// Reads XML (the scene itself), multipart/form-data with the scene and the files it names, or a
+/// zip or tar of them, which is opened by a worker only. Throws Error http.content-encoding,
+/// http.media-type, limit.body, http.multipart, http.body, xml.empty, bundle.*.
 Upload readUpload(const http::Request& request, http::Body& body, std::size_t maxBytes);
+
+/// The job of a bundle whose paths are safe, under its digest; the files are shared, not copied.
+render::Job jobOf(const std::shared_ptr<const scene::Bundle>& bundle);
 
 }  // namespace farol::server

@@ -6,6 +6,7 @@
 #include "generator/io/mesh_file.h"
 #include "generator/registry.h"
 #include "render/image_file.h"
+#include "scene/archive.h"
 
 namespace farol::server::worker {
 namespace {
@@ -86,6 +87,9 @@ Reply work(render::Renderer& renderer, const Request& request) {
                 break;
             case Task::mesh:
                 reply.mesh = makeMesh(request.mesh);
+                break;
+            case Task::unpack:
+                reply.bundle = scene::readArchive(request.job.archive);
                 break;
             case Task::check:
                 check(renderer);

@@ -32,6 +32,12 @@ constexpr Filter lastOf(Filter) { return Filter::anisotropic; }
 constexpr Viewer lastOf(Viewer) { return Viewer::local; }
 constexpr Specular lastOf(Specular) { return Specular::separate; }
 
+template <typename Archive, Is<Bundle> T>
+void visit(Archive& archive, T& value) {
+    auto& [main, files] = value;
+    archive(main, files);
+}
+
 template <typename Archive, Is<Camera> T>
 void visit(Archive& archive, T& value) {
     auto& [eye, target, up, fovDeg, near, far, where] = value;
@@ -99,8 +105,8 @@ void visit(Archive& archive, T& value) {
 
 template <typename Archive, Is<Reply> T>
 void visit(Archive& archive, T& value) {
-    auto& [outcome, diagnostics, message, picture, report, mesh] = value;
-    archive(outcome, diagnostics, message, picture, report, mesh);
+    auto& [outcome, diagnostics, message, picture, report, mesh, bundle] = value;
+    archive(outcome, diagnostics, message, picture, report, mesh, bundle);
 }
 
 namespace {
@@ -126,7 +132,7 @@ std::string packed(const T& value) {
 
 std::string pack(const Request& request) {
     const auto& [task, job, mesh] = request;
-    const auto& [name, xml, assets, options, strict, identity] = job;
+    const auto& [name, xml, assets, options, strict, identity, archive] = job;
     std::string folder;
     Files files;
     if (const auto* served = dynamic_cast<const scene::FolderAssets*>(assets.get())) {
@@ -136,7 +142,7 @@ std::string pack(const Request& request) {
             if (auto bytes = assets->read(path)) files.emplace_back(path, std::move(*bytes));
     }
     Packer packer;
-    packer(task, name, xml, folder, files, options, strict, identity, mesh);
+    packer(task, name, xml, folder, files, options, strict, identity, archive, mesh);
     return packer.take();
 }
 
@@ -147,7 +153,7 @@ Request unpackRequest(std::string_view bytes) {
     Unpacker unpacker(bytes);
     render::Job& job = request.job;
     unpacker(request.task, job.name, job.xml, folder, files, job.options, job.strict, job.identity,
-             request.mesh);
+             job.archive, request.mesh);
     unpacker.end();
     if (!folder.empty())
         job.assets = std::make_shared<scene::FolderAssets>(folder);

@@ -9,11 +9,11 @@
 /// What the service and its workers say to each other.
 namespace farol::server::worker {
 
-enum class Task { render, inspect, mesh, check };
+enum class Task { render, inspect, mesh, unpack, check };
 
 struct Request {
     Task task = Task::check;
-    render::Job job;  ///< of render and inspect
+    render::Job job;  ///< of render and inspect; of unpack, its archive
     MeshJob mesh;
 };
 
@@ -37,6 +37,7 @@ struct Reply {
     render::Picture picture;
     render::SceneReport report;
     std::string mesh;
+    scene::Bundle bundle;  ///< of unpack
 };
 
 std::string pack(const Reply& reply);

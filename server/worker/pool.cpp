@@ -20,6 +20,7 @@ QueueLimits withSlack(QueueLimits limits) {
 
 /// What a worker that has the scene warm is found by, and what a quarantine is for.
 std::string sceneOf(const render::Job& job) {
+    if (!job.identity.empty()) return job.identity;
     std::string all = job.name + "\n" + job.xml + "\n";
     if (const auto* folder = dynamic_cast<const scene::FolderAssets*>(job.assets.get()))
         all += folder->root();
@@ -231,6 +232,19 @@ Done<std::string> WorkerPool::mesh(const MeshJob& job) {
     request.mesh = job;
     Done<Reply> done = ask(pack(request), "");
     return {std::move(done.result.mesh), done.queueMs};
+}
+
+Done<scene::Bundle> WorkerPool::unpack(const std::string& archive) {
+    Request request;
+    request.task = Task::unpack;
+    request.job.archive = archive;
+    Done<Reply> done = ask(pack(request), scene::contentDigest(archive));
+    // A worker that is not ours any more must not choose what is written where.
+    for (const auto& [path, content] : done.result.bundle.files)
+        if (!scene::isSafePath(path)) throw std::runtime_error("a worker unpacked an unsafe path");
+    if (done.result.bundle.files.count(done.result.bundle.main) == 0)
+        throw std::runtime_error("a worker unpacked no scene");
+    return {std::move(done.result.bundle), done.queueMs};
 }
 
 void WorkerPool::check() { ask(pack(Request{}), ""); }

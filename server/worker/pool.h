@@ -38,6 +38,7 @@ class WorkerPool final : public Backend {
     Done<render::Picture> render(const render::Job& job, const std::string& tag) override;
     Done<render::SceneReport> inspect(const render::Job& job) override;
     Done<std::string> mesh(const MeshJob& job) override;
+    Done<scene::Bundle> unpack(const std::string& archive) override;
     void check() override;
     BackendState state() const override;
     BackendFacts facts() const override;

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <cstring>
 #include <glm/glm.hpp>
+#include <map>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -34,6 +35,10 @@ inline constexpr bool kIsPair = false;
 template <typename A, typename B>
 inline constexpr bool kIsPair<std::pair<A, B>> = true;
 template <typename T>
+inline constexpr bool kIsMap = false;
+template <typename K, typename V>
+inline constexpr bool kIsMap<std::map<K, V>> = true;
+template <typename T>
 inline constexpr bool kIsVector = false;
 template <int N, typename T, glm::qualifier Q>
 inline constexpr bool kIsVector<glm::vec<N, T, Q>> = true;
@@ -64,6 +69,9 @@ class Packer {
         } else if constexpr (kIsList<T>) {
             put(static_cast<std::uint64_t>(value.size()));
             for (const auto& one : value) put(one);
+        } else if constexpr (kIsMap<T>) {
+            put(static_cast<std::uint64_t>(value.size()));
+            for (const auto& [key, one] : value) (*this)(key, one);
         } else if constexpr (kIsOptional<T>) {
             put(value.has_value());
             if (value) put(*value);
@@ -122,6 +130,16 @@ class Unpacker {
             if (count > rest_.size()) throw WireError("a message is cut off");
             value.clear();
             for (std::uint64_t i = 0; i < count; ++i) get(value.emplace_back());
+        } else if constexpr (kIsMap<T>) {
+            std::uint64_t count = 0;
+            get(count);
+            if (count > rest_.size()) throw WireError("a message is cut off");
+            value.clear();
+            for (std::uint64_t i = 0; i < count; ++i) {
+                typename T::key_type key;
+                get(key);
+                get(value[key]);
+            }
         } else if constexpr (kIsOptional<T>) {
             bool there = false;
             get(there);

@@ -33,6 +33,11 @@ server::Done<std::string> FakeBackend::mesh(const server::MeshJob& job) {
     return {text + job.format, 0.0};
 }
 
+server::Done<scene::Bundle> FakeBackend::unpack(const std::string& archive) {
+    const std::string document = "<world>" + std::to_string(archive.size()) + "</world>";
+    return {scene::Bundle{"scene.xml", {{"scene.xml", document}}}, 0.0};
+}
+
 void FakeBackend::check() {
     if (onCheck) onCheck();
 }

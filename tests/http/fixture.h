@@ -25,6 +25,7 @@ class FakeBackend final : public server::Backend {
     server::Done<render::Picture> render(const render::Job& job, const std::string& tag) override;
     server::Done<render::SceneReport> inspect(const render::Job& job) override;
     server::Done<std::string> mesh(const server::MeshJob& job) override;
+    server::Done<scene::Bundle> unpack(const std::string& archive) override;
     void check() override;
     server::BackendState state() const override { return {1, 0, 0, {}, 0}; }
     std::string version() const override { return name; }

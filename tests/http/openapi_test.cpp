@@ -144,6 +144,7 @@ TEST_CASE("every route answers with statuses that the document lists") {
              std::map<std::string, std::string>{{"{id}", "box"}, {"{shape}", "cone"}})
             if (const std::size_t at = target.find(name); at != std::string::npos)
                 target.replace(at, name.size(), value);
+        if (key.second == "delete") continue;  // store_test.cpp has its table
         const std::string method = key.second == "post" ? "POST" : "GET";
         const std::string body = method == "POST" ? "<world/>" : "";
         std::vector<Ask> probes = {{method, target, {}, body},
@@ -166,7 +167,7 @@ TEST_CASE("every route answers with statuses that the document lists") {
             CHECK(operation.statuses.count(std::to_string(answer.status)) == 1);
             ++answered;
         }
-        CHECK(ask(server.port(), probes.front()).status == 200);
+        CHECK(ask(server.port(), probes.front()).status == 200);  // once kept, POST says 200 too
         CHECK(operation.statuses.count("400") == 1);
     }
     CHECK(answered > 40);

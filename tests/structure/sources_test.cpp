@@ -98,6 +98,7 @@ const std::vector<Library> kLibraries{{{"GL/", "EGL/"}, "render/gl/", 0},
                                       {{"httplib"}, "server/http/", 0},
                                       {{"CLI/"}, "cli/", 0},
                                       {{"seccomp.h"}, "server/worker/", 1},
+                                      {{"archive.h", "archive_entry.h"}, "scene/", 1},
                                       {{"libdeflate"}, "render/", 1},
                                       {{"jpeglib", "webp/", "turbojpeg"}, "render/", 1},
                                       {{"catch2/"}, "tests/", 0}};

@@ -38,7 +38,8 @@ std::set<std::string> codesInSources() {
             if (ending != ".cpp" && ending != ".h") continue;
             all.merge(
                 matches(readFile(entry.path()),
-                        "\"((?:xml|scene|asset|shape|mesh|image|limit|option|http|busy|worker)"
+                        "\"((?:xml|scene|asset|shape|mesh|image|limit|option|http|busy|worker|"
+                        "bundle|store)"
                         "\\.[a-z]+(?:-[a-z]+)*)\""));
         }
     }

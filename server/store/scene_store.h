@@ -1,0 +1,71 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scene/bundle.h"
+
+/// Where uploaded scenes are kept.
+namespace farol::server::store {
+
+using Time = std::chrono::system_clock::time_point;
+
+/// What is known of a stored scene without opening it.
+struct Entry {
+    std::string id;           ///< "~" and the digest of the bundle
+    bool listed = false;      ///< in the gallery; else only who knows the id finds it
+    Time expires;             ///< Time::max(): never
+    std::uint64_t bytes = 0;  ///< that it takes of the store
+    bool operator==(const Entry&) const = default;
+};
+
+struct Stored {
+    Entry entry;
+    std::shared_ptr<const scene::Bundle> bundle;
+};
+
+struct StoreLimits {
+    std::uint64_t bytes = std::uint64_t{1} << 30U;  ///< of all scenes together
+    std::size_t scenes = 100'000;
+    std::chrono::seconds expire{7 * 24 * 3600};  ///< after the last upload; 0: never
+};
+
+/// Scenes by the digest of their content. All calls may come from many threads. Throws Busy
+/// store.full or store.failed when it cannot write; nothing is kept then.
+class SceneStore {
+  public:
+    virtual ~SceneStore() = default;
+
+    struct Put {
+        Entry entry;
+        bool created = false;  ///< it was not there before
+    };
+    /// Keeps the bundle; when it returns, it is kept for good. One that is there already lives
+    /// on from now; `listed` is added and never taken away. When the store is full, the scenes
+    /// that nobody asked for the longest make room. Throws Error limit.store for one that alone is
+    /// larger than the store.
+    virtual Put put(const scene::Bundle& bundle, bool listed) = 0;
+    /// The scene, unless it is not here, expired or damaged.
+    virtual std::optional<Stored> get(const std::string& id) = 0;
+    /// False where there was none.
+    virtual bool remove(const std::string& id) = 0;
+    /// Those that are listed, by their ids.
+    virtual std::vector<Entry> list() = 0;
+    /// Removes what has expired; how many.
+    virtual std::size_t expire() = 0;
+    /// How much is kept.
+    virtual std::uint64_t bytes() const = 0;
+};
+
+/// The id of a bundle: "~" and 32 hexadecimal digits.
+std::string idOf(const scene::Bundle& bundle);
+/// Whether an id is of that form; no served scene is found under one.
+bool isStoredId(const std::string& id);
+/// Throws Error limit.store.
+void refuseLargerThan(const StoreLimits& limits, std::uint64_t bytes);
+
+}  // namespace farol::server::store

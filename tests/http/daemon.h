@@ -1,0 +1,77 @@
+#pragma once
+
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <string>
+#include <vector>
+
+namespace farol::test {
+
+/// `farol serve` with these arguments; its stdout is read, its stderr goes nowhere. With
+/// `fileBytes`, no file that it writes may grow beyond.
+class Daemon {
+  public:
+    explicit Daemon(const std::vector<std::string>& arguments, rlim_t fileBytes = 0) {
+        int ends[2];
+        REQUIRE(pipe2(ends, O_CLOEXEC) == 0);
+        std::vector<std::string> words = {FAROL_BINARY, "serve"};
+        words.insert(words.end(), arguments.begin(), arguments.end());
+        std::vector<char*> argv;
+        for (std::string& word : words) argv.push_back(word.data());
+        argv.push_back(nullptr);
+        pid_ = fork();
+        REQUIRE(pid_ >= 0);
+        if (pid_ == 0) {
+            dup2(ends[1], 1);
+            const int nowhere = open("/dev/null", O_WRONLY);
+            dup2(nowhere, 2);
+            const rlimit limit{fileBytes, fileBytes};
+            if (fileBytes > 0) setrlimit(RLIMIT_FSIZE, &limit);
+            execv(argv[0], argv.data());
+            _exit(127);
+        }
+        close(ends[1]);
+        out_ = ends[0];
+    }
+    ~Daemon() {
+        if (pid_ > 0) {
+            kill(pid_, SIGKILL);
+            waitpid(pid_, nullptr, 0);
+        }
+        close(out_);
+    }
+
+    std::string firstLine() {
+        std::string line;
+        char c = 0;
+        while (read(out_, &c, 1) == 1 && c != '\n') line += c;
+        return line;
+    }
+    pid_t pid() const { return pid_; }
+    void signal(int number) const { kill(pid_, number); }
+    /// Waits for the end: the exit code, or 128 and the signal's number.
+    int exitCode() {
+        int status = 0;
+        waitpid(pid_, &status, 0);
+        pid_ = -1;
+        return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    }
+
+  private:
+    pid_t pid_ = -1;
+    int out_ = -1;
+};
+
+inline int portIn(const std::string& line) {
+    const std::string start = "listening on http://127.0.0.1:";
+    INFO(line);
+    REQUIRE(line.rfind(start, 0) == 0);
+    return std::stoi(line.substr(start.size()));
+}
+
+}  // namespace farol::test

@@ -19,6 +19,8 @@ struct Entry {
     /// Values of the level arguments, in their order, that keep the fineness.
     std::vector<double> (*levels)(const Call& call, const std::string& fileBytes,
                                   const Fineness& fineness) = nullptr;
+    /// The exact surface, where it is one of those that Surface knows.
+    Surface (*surface)(const Call& call, scene::UvLayout uv) = nullptr;
 };
 
 /// The entry that `shape` belongs to. Precondition: it is one of shapes().

@@ -7,7 +7,8 @@
 namespace farol::generator {
 
 double circleDivisions(double radius, double error, const Fineness& fineness) {
-    const double half = std::sqrt(std::min(1.0, error / (2.0 * radius)));
+    const double depth = fineness.balanced ? 2.0 * error : error;
+    const double half = std::sqrt(std::min(1.0, depth / (2.0 * radius)));
     const double divisions = std::ceil(std::numbers::pi / (2.0 * std::asin(half)));
     return ladder(std::clamp(divisions, fineness.fullTurn, kMostDivisions));
 }
@@ -15,8 +16,10 @@ double circleDivisions(double radius, double error, const Fineness& fineness) {
 double ladder(double divisions) {
     double power = 1.0;
     while (power < divisions && power < kMostDivisions) {
-        // Between 2^k and 2^(k+1) stands 1.5 * 2^k.
+        // Between 2^k and 2^(k+1) stands 1.5 * 2^k, from 16 on quarters.
+        if (power >= 16.0 && divisions <= 1.25 * power) return 1.25 * power;
         if (power >= 2.0 && divisions <= 1.5 * power) return 1.5 * power;
+        if (power >= 16.0 && divisions <= 1.75 * power) return 1.75 * power;
         power *= 2.0;
     }
     return power;

@@ -1,6 +1,8 @@
 #include "generator/registry.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "generator/entry.h"
 #include "generator/io/mesh_file.h"
@@ -82,6 +84,13 @@ bool isOpenAt(const Shape& shape, const scene::Model& model, std::size_t index) 
            (model.autoLod || at >= words.size() || words[at] == "auto");
 }
 
+std::vector<double> levelsOf(const Call& call) {
+    std::vector<double> levels;
+    for (std::size_t i = 0; i < call.shape->arguments.size(); ++i)
+        if (call.shape->arguments[i].level) levels.push_back(call.values[i]);
+    return levels;
+}
+
 }  // namespace
 
 std::span<const Shape> shapes() { return table().shapes; }
@@ -128,6 +137,46 @@ bool isOpen(const scene::Model& model) {
     for (std::size_t i = 0; i < shape->arguments.size(); ++i)
         if (isOpenAt(*shape, model, i)) return true;
     return false;
+}
+
+std::optional<Surface> surfaceOf(const scene::Model& model) {
+    if (model.source.kind != scene::ModelSource::Kind::shape) return std::nullopt;
+    const Shape* shape = findShape(model.source.words.at(0));
+    if (shape == nullptr || entryOf(*shape).surface == nullptr) return std::nullopt;
+    for (std::size_t i = 0; i < shape->arguments.size(); ++i)
+        if (shape->arguments[i].level && !isOpenAt(*shape, model, i)) return std::nullopt;
+    return entryOf(*shape).surface(parseCall(model.source.words), model.uv);
+}
+
+double fullTurnOf(const std::vector<std::string>& words) {
+    const Call call = parseCall(words);
+    const Entry& entry = entryOf(*call.shape);
+    if (entry.surface == nullptr) return 0.0;
+    const std::vector<double> levels = levelsOf(call);
+    switch (entry.surface(call, scene::UvLayout::face).kind) {
+        case Surface::Kind::ellipsoid:
+            return std::min(levels.at(0), 2.0 * levels.at(1));
+        case Surface::Kind::torus:
+            return std::min(levels.at(0), levels.at(1));
+        default:
+            return levels.at(0);
+    }
+}
+
+glm::dvec3 balanceOf(const std::vector<std::string>& words) {
+    const Call call = parseCall(words);
+    const Entry& entry = entryOf(*call.shape);
+    if (entry.surface == nullptr) return glm::dvec3(1.0);
+    const std::vector<double> levels = levelsOf(call);
+    // The nearest point of a facet to the middle, on the unit circle or sphere.
+    const double across = std::sin(std::numbers::pi / levels.at(0));
+    if (entry.surface(call, scene::UvLayout::face).kind == Surface::Kind::ellipsoid) {
+        const double up = std::sin(std::numbers::pi / (2.0 * levels.at(1)));
+        const double depth = std::sqrt(std::max(0.0, 1.0 - across * across - up * up));
+        return glm::dvec3(2.0 / (1.0 + depth));
+    }
+    const double scale = 2.0 / (1.0 + std::sqrt(1.0 - across * across));
+    return {scale, 1.0, scale};
 }
 
 std::vector<std::string> refine(const scene::Model& model, const scene::Assets& assets,

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "generator/fineness.h"
 #include "generator/mesh.h"
+#include "generator/surface.h"
 #include "scene/assets.h"
 #include "scene/scene.h"
 
@@ -64,6 +66,18 @@ Mesh load(const scene::Model& model, const scene::Assets& assets, Diagnostics* f
 /// lod="auto"): its mesh is made as fine as the picture needs. What is written is honoured to the
 /// letter.
 bool isOpen(const scene::Model& model);
+
+/// The exact surface of a model whose divisions are all open; nothing where some are written (the
+/// mesh is then what is meant) or the shape is none of Surface's.
+std::optional<Surface> surfaceOf(const scene::Model& model);
+
+/// Divisions of a full turn of a shape that Surface knows, in its coarser direction; 0 for other
+/// words.
+double fullTurnOf(const std::vector<std::string>& words);
+
+/// The scale, object space, by which the mesh of a shape that Surface knows errs as far outwards as
+/// inwards (a torus: round its ring); 1 for other words.
+glm::dvec3 balanceOf(const std::vector<std::string>& words);
 
 /// The words of an open model with its divisions chosen: the coarsest of a small ladder that keep
 /// `fineness`. Throws as load does.

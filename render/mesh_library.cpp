@@ -24,10 +24,15 @@ std::string keyOf(const scene::Model& model, const scene::Assets& assets) {
 }  // namespace
 
 std::shared_ptr<const MeshData> MeshLibrary::keep(const std::string& key, generator::Mesh mesh,
-                                                  Diagnostics findings) {
+                                                  Diagnostics findings,
+                                                  const std::vector<std::string>& balanced) {
     auto data = std::make_shared<MeshData>();
     data->id = nextId();
     data->mesh = std::move(mesh);
+    if (!balanced.empty()) {
+        data->balance = generator::balanceOf(balanced);
+        data->fullTurn = generator::fullTurnOf(balanced);
+    }
     data->findings = std::move(findings);
     for (const glm::vec3& position : data->mesh.positions) data->bounds.add(glm::dvec3(position));
     const std::size_t bytes = data->mesh.positions.size() * sizeof(glm::vec3) +
@@ -52,10 +57,12 @@ std::shared_ptr<const MeshData> MeshLibrary::get(const scene::Model& model,
     // Both numbers stand on ladders, so the text is exact enough for a key.
     const std::string key =
         keyOf(model, assets) + "\n" + std::to_string(std::log2(fineness.error)) + ' ' +
-        std::to_string(fineness.fullTurn) + ' ' + std::to_string(fineness.straightSide);
+        std::to_string(fineness.fullTurn) + ' ' + std::to_string(fineness.straightSide) +
+        (fineness.balanced ? " balanced" : "");
     if (const auto* known = meshes_.find(key)) return *known;
-    return keep(key,
-                generator::generate(generator::refine(model, assets, fineness), assets, model.uv));
+    const std::vector<std::string> words = generator::refine(model, assets, fineness);
+    return keep(key, generator::generate(words, assets, model.uv), {},
+                fineness.balanced ? words : std::vector<std::string>());
 }
 
 }  // namespace farol::render

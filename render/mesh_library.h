@@ -26,8 +26,10 @@ struct Box {
 struct MeshData {
     std::uint64_t id = 0;
     generator::Mesh mesh;
-    Box bounds;            ///< object space
-    Diagnostics findings;  ///< what was repaired in its file
+    Box bounds;               ///< object space
+    glm::dvec3 balance{1.0};  ///< generator::balanceOf, where the mesh was asked to be balanced
+    double fullTurn = 0.0;    ///< generator::fullTurnOf, likewise
+    Diagnostics findings;     ///< what was repaired in its file
 };
 
 /// Meshes by source, kept within a bound of bytes, least recently used first out.
@@ -42,7 +44,8 @@ class MeshLibrary {
 
   private:
     std::shared_ptr<const MeshData> keep(const std::string& key, generator::Mesh mesh,
-                                         Diagnostics findings = {});
+                                         Diagnostics findings = {},
+                                         const std::vector<std::string>& balanced = {});
     LruCache<std::string, std::shared_ptr<const MeshData>> meshes_;
 };
 

@@ -182,17 +182,29 @@ class Planner {
         }
         const scene::Model& model = *instance.model;
         DrawItem item;
-        item.mesh = instance.open
-                        ? meshes_.get(*instance.model, assets_,
-                                      fineness(instance.mesh->bounds, viewFromObject,
-                                               instance.model->texture.has_value(), sight_))
-                        : instance.mesh;
+        item.mesh = instance.mesh;
+        if (instance.open) {
+            const std::optional<SeenSurface> seen =
+                wantsSurface() ? seenSurface(model, viewFromObject) : std::nullopt;
+            item.mesh = meshes_.get(model, assets_,
+                                    fineness(instance.mesh->bounds, viewFromObject, seen,
+                                             model.texture.has_value(), sight_));
+            if (seen) {
+                const glm::dvec3& balance = item.mesh->balance;
+                for (int i = 0; i < 3; ++i) viewFromObject[i] *= balance[i];
+                if (needsSurface(*seen, item.mesh->fullTurn, model.texture.has_value()))
+                    item.surface = seen->surface;
+                item.unitFromObject = glm::vec3(balance / seen->surface.lengths);
+                item.surfaceEye = glm::vec3(seen->eye);
+            }
+        }
         item.viewFromObject = glm::mat4(viewFromObject);
         // Cofactors: the inverse transpose without its division, so flattened objects work too.
-        const glm::dmat3 cofactor(glm::cross(linear[1], linear[2]),
-                                  glm::cross(linear[2], linear[0]),
-                                  glm::cross(linear[0], linear[1]));
+        glm::dmat3 cofactor(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
+                            glm::cross(linear[0], linear[1]));
         const double det = glm::dot(linear[0], cofactor[0]);
+        if (item.surface)
+            for (int i = 0; i < 3; ++i) cofactor[i] /= item.surface->lengths[i];
         double largest = 0.0;
         for (int i = 0; i < 3; ++i)
             for (int j = 0; j < 3; ++j) largest = std::max(largest, std::abs(cofactor[i][j]));
@@ -206,11 +218,21 @@ class Planner {
         if (model.twoSided) {
             DrawItem back = item;
             back.mirrored = !back.mirrored;
+            back.inside = true;
             back.normalFromObject = -back.normalFromObject;
             plan_.stats.triangles += static_cast<std::int64_t>(item.mesh->mesh.triangles());
             plan_.items.push_back(std::move(back));
         }
         plan_.items.push_back(std::move(item));
+    }
+
+    /// True where faces are filled and a pixel can show the surface itself, not its facets or their
+    /// corners' light.
+    bool wantsSurface() const {
+        if (plan_.layer != Layer::color) return true;
+        if (plan_.lit) return plan_.shading == scene::Shading::phong;
+        return plan_.shading != scene::Shading::wireframe &&
+               plan_.shading != scene::Shading::points && plan_.shading != scene::Shading::chess;
     }
 
     void fillMaterial(DrawItem& item, const scene::Model& model, const scene::Material& undressed) {

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,7 +38,13 @@ struct DrawItem {
     std::shared_ptr<const MeshData> mesh;
     glm::mat4 viewFromObject{1.0F};
     glm::mat3 normalFromObject{1.0F};  ///< cofactor matrix, any positive scale, outward
-    bool mirrored = false;             ///< determinant < 0: front faces are clockwise
+    /// Where the pixels take normals and coordinates from the surface itself: normalFromObject is
+    /// then for gradients in the surface's units.
+    std::optional<generator::Surface> surface;
+    glm::vec3 unitFromObject{1.0F};  ///< scale from the mesh to the surface's units
+    glm::vec3 surfaceEye{0.0F};      ///< the viewer in the surface's units
+    bool inside = false;             ///< the insides are drawn
+    bool mirrored = false;           ///< determinant < 0: front faces are clockwise
     glm::vec3 diffuse{0.0F}, ambient{0.0F}, specular{0.0F}, emissive{0.0F};
     float shininess = 0.0F;
     int texture = -1;  ///< index into FramePlan::textures

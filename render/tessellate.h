@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "generator/registry.h"
 #include "render/mesh_library.h"
 #include "render/options.h"
 #include "scene/scene.h"
@@ -18,11 +19,30 @@ struct Sight {
     scene::Shading shading = scene::Shading::phong;
 };
 
+/// An exact surface as it is seen: the viewer in the surface's own units.
+struct SeenSurface {
+    generator::Surface surface;
+    glm::dvec3 eye;
+};
+
+/// The exact surface of a model that stands at viewFromObject, if all of its divisions are open and
+/// single precision can follow a pixel's ray to it: not where it is flattened, and not where the
+/// viewer stands so close to it that its size hides the distance.
+std::optional<SeenSurface> seenSurface(const scene::Model& model, const glm::dmat4& viewFromObject);
+
+/// True where the pixels of a mesh with so many divisions of a full turn have to follow their rays
+/// to the surface: it costs them up to half as much again, which pays where the outline alone would
+/// do with fewer divisions than interpolation needs, and where interpolation never gets there (the
+/// tips of textures, cones).
+bool needsSurface(const SeenSurface& seen, double fullTurn, bool textured);
+
 /// How fine a shape has to be whose bounding box is `bounds` (object space) and that stands at
 /// viewFromObject, so that no point of its surface moves by more than sight.errorPx on the screen
-/// (docs/accuracy.md), rounded down to a ladder of half powers of two so that an orbiting camera
-/// meets the same meshes again. Curved shapes also get the divisions that their shading needs.
-generator::Fineness fineness(const Box& bounds, const glm::dmat4& viewFromObject, bool textured,
+/// (docs/accuracy.md), rounded down to a ladder of quarter powers of two so that an orbiting camera
+/// meets the same meshes again. Curved shapes also get the divisions that their shading needs,
+/// unless their pixels take it from the surface `seen`.
+generator::Fineness fineness(const Box& bounds, const glm::dmat4& viewFromObject,
+                             const std::optional<SeenSurface>& seen, bool textured,
                              const Sight& sight);
 
 }  // namespace farol::render

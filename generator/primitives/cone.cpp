@@ -26,6 +26,9 @@ Entry coneEntry() {
                 return std::vector<double>{
                     circleDivisions(call.length(0), fineness.error, fineness),
                     ladder(fineness.straightSide)};
+            },
+            [](const Call& call, scene::UvLayout uv) {
+                return frustumSurface(call.length(0), 0, call.length(1), uv, FrustumAtlas::cone);
             }};
 }
 

@@ -25,6 +25,10 @@ Entry cylinderEntry() {
                 return std::vector<double>{
                     circleDivisions(call.length(0), fineness.error, fineness),
                     call.shape->arguments[3].fallback};
+            },
+            [](const Call& call, scene::UvLayout uv) {
+                return frustumSurface(call.length(0), call.length(0), call.length(1), uv,
+                                      FrustumAtlas::cylinder);
             }};
 }
 

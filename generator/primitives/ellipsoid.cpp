@@ -29,6 +29,9 @@ Entry ellipsoidEntry() {
                 return std::vector<double>{
                     circleDivisions(std::max(rx, rz), error, fineness),
                     circleDivisions(std::max({rx, ry, rz}), error, fineness) / 2};
+            },
+            [](const Call& call, scene::UvLayout uv) {
+                return ellipsoidSurface({call.length(0), call.length(1), call.length(2)}, uv);
             }};
 }
 

@@ -9,6 +9,8 @@ namespace {
 
 using scene::UvLayout;
 
+constexpr double kAtlasSide = 0.625;  // of the texture's height is the side's
+
 /// Where the parts of a frustum lie in the texture.
 class Texturing {
   public:
@@ -32,8 +34,6 @@ class Texturing {
     }
 
   private:
-    static constexpr double kAtlasSide = 0.625;
-
     static glm::dvec2 disc(const glm::dvec2& centre, double radius, const SinCos& a) {
         return {centre.x + radius * a.sin, centre.y + radius * a.cos};
     }
@@ -95,6 +95,23 @@ Mesh frustum(double bottom, double top, double height, std::size_t slices, std::
     return builder.take();
 }
 
+Surface frustumSurface(double bottom, double top, double height, UvLayout uv, FrustumAtlas atlas) {
+    const double widest = std::max(bottom, top);
+    Surface surface{Surface::Kind::frustum, {widest, height, widest}};
+    surface.form = {bottom / widest, (top - bottom) / widest};
+    if (uv == UvLayout::layout2017) {
+        surface.uv = {1.0, -1.0, 0.0, 1.0};
+    } else if (uv == UvLayout::atlas && atlas == FrustumAtlas::cone) {
+        surface.uv = {0.75, 0.25, 0.5, 0.25};
+        surface.discs = {0.25, 0.5, 0.25, 0.5};
+        surface.discUv = true;
+    } else if (uv == UvLayout::atlas) {
+        surface.uv.w = kAtlasSide;
+        surface.discs = {0.8125, 0.8125, 0.4375, 0.8125};
+    }
+    return surface;
+}
+
 std::size_t frustumTriangles(double bottom, double top, std::size_t slices, std::size_t stacks) {
     // Each end has a disc, or lacks half of its row of quads: one triangle a slice either way.
     const std::size_t discs = (bottom > 0 ? 1 : 0) + (top > 0 ? 1 : 0);
@@ -133,6 +150,10 @@ Entry frustumEntry() {
             const double radius = std::max(call.length(0), call.length(1));
             return std::vector<double>{circleDivisions(radius, fineness.error, fineness),
                                        ladder(std::max(1.0, fineness.straightSide))};
+        },
+        [](const Call& call, UvLayout uv) {
+            return frustumSurface(call.length(0), call.length(1), call.length(2), uv,
+                                  FrustumAtlas::cylinder);
         }};
 }
 

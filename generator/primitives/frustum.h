@@ -15,6 +15,10 @@ enum class FrustumAtlas { cylinder, cone };
 Mesh frustum(double bottom, double top, double height, std::size_t slices, std::size_t stacks,
              scene::UvLayout uv, FrustumAtlas atlas);
 
+/// The surface of that mesh; the texture layouts are those of its side.
+Surface frustumSurface(double bottom, double top, double height, scene::UvLayout uv,
+                       FrustumAtlas atlas);
+
 /// The triangles of that mesh.
 std::size_t frustumTriangles(double bottom, double top, std::size_t slices, std::size_t stacks);
 

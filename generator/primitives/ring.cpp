@@ -56,6 +56,11 @@ Entry ringEntry() {
         },
         [](const Call& call, const std::string&, const Fineness& fineness) {
             return std::vector<double>{circleDivisions(call.length(1), fineness.error, fineness)};
+        },
+        [](const Call& call, scene::UvLayout) {
+            Surface surface{Surface::Kind::ring, glm::dvec3(call.length(1))};
+            surface.form.x = call.length(0) / call.length(1);
+            return surface;
         }};
 }
 

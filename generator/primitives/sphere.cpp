@@ -39,6 +39,12 @@ Mesh ellipsoid(const glm::dvec3& radii, std::size_t slices, std::size_t stacks,
     return builder.take();
 }
 
+Surface ellipsoidSurface(const glm::dvec3& radii, scene::UvLayout uv) {
+    Surface surface{Surface::Kind::ellipsoid, radii};
+    surface.turnFromX = uv == scene::UvLayout::layout2017;
+    return surface;
+}
+
 Entry sphereEntry() {
     return {{"sphere",
              "a sphere about the origin, poles on Y",
@@ -58,6 +64,9 @@ Entry sphereEntry() {
                 // Half of the error to either direction.
                 const double slices = circleDivisions(call.length(0), fineness.error / 2, fineness);
                 return std::vector<double>{slices, slices / 2};
+            },
+            [](const Call& call, scene::UvLayout uv) {
+                return ellipsoidSurface(glm::dvec3(call.length(0)), uv);
             }};
 }
 

@@ -11,6 +11,9 @@ namespace farol::generator::primitives {
 /// +X, where that engine has its seam. `atlas` is the same rectangle.
 Mesh ellipsoid(const glm::dvec3& radii, std::size_t slices, std::size_t stacks, scene::UvLayout uv);
 
+/// The surface of that mesh.
+Surface ellipsoidSurface(const glm::dvec3& radii, scene::UvLayout uv);
+
 Entry sphereEntry();
 
 }  // namespace farol::generator::primitives

@@ -54,7 +54,13 @@ Entry torusEntry() {
                 const double ring = call.length(0), tube = call.length(1);
                 return std::vector<double>{
                     circleDivisions(ring + tube, fineness.error / 2, fineness),
-                    circleDivisions(tube, fineness.error / 2, fineness)};
+                    // The tube is never balanced: no scale does that.
+                    circleDivisions(tube, fineness.error / (fineness.balanced ? 4 : 2), fineness)};
+            },
+            [](const Call& call, scene::UvLayout) {
+                Surface surface{Surface::Kind::torus, glm::dvec3(call.length(0))};
+                surface.form.x = call.length(1) / call.length(0);
+                return surface;
             }};
 }
 

@@ -65,6 +65,38 @@ void unpremultiply(Image& image) {
     }
 }
 
+void defineSurface(const generator::Surface& surface, std::string& defines) {
+    using Kind = generator::Surface::Kind;
+    defines += "#define SURFACE\n";
+    defines += surface.kind == Kind::ellipsoid ? "#define SURFACE_ELLIPSOID\n"
+               : surface.kind == Kind::frustum ? "#define SURFACE_FRUSTUM\n"
+               : surface.kind == Kind::torus   ? "#define SURFACE_TORUS\n"
+                                               : "#define SURFACE_RING\n";
+    if (surface.turnFromX) defines += "#define SURFACE_TURN_FROM_X\n";
+    // Where the turn about Y ends in a point, or nearly.
+    const bool narrow = std::min(surface.form.x, surface.form.x + surface.form.y) < 0.5;
+    const bool tips = surface.kind == Kind::ellipsoid || (surface.kind == Kind::frustum && narrow);
+    if (tips && !surface.discUv) defines += "#define SURFACE_TIPS\n";
+    if (surface.discUv) defines += "#define SURFACE_DISC_UV\n";
+}
+
+void setSurface(const Api& api, const DrawItem& item, const LinkedProgram& program) {
+    const generator::Surface& surface = *item.surface;
+    const glm::vec3 lengths(surface.lengths);
+    const glm::vec2 form(surface.form);
+    const glm::vec4 uv(surface.uv);
+    api.Uniform3fv(program.unitFromObject, 1, glm::value_ptr(item.unitFromObject));
+    api.Uniform3fv(program.unitEye, 1, glm::value_ptr(item.surfaceEye));
+    api.Uniform3fv(program.surfaceLengths, 1, glm::value_ptr(lengths));
+    api.Uniform2f(program.surfaceForm, form.x, form.y);
+    api.Uniform4fv(program.surfaceUv, 1, glm::value_ptr(uv));
+    const glm::vec4 discs(surface.discs);
+    api.Uniform4fv(program.surfaceDiscs, 1, glm::value_ptr(discs));
+    // A polar layout (uv.y < 0) has no middle to grow from.
+    api.Uniform1f(program.balance, uv.y > 0.0F ? item.unitFromObject.x * lengths.x : 1.0F);
+    api.Uniform1f(program.seenFrom, item.inside ? -1.0F : 1.0F);
+}
+
 }  // namespace
 
 struct Painter::State {
@@ -139,6 +171,10 @@ ProgramKey Painter::State::keyOf(const FramePlan& plan, const DrawItem& item) co
     }
     const std::vector<EyeLight>& lights = plan.lightSets[static_cast<std::size_t>(item.lightSet)];
     defines += "#define LIGHT_COUNT " + std::to_string(plan.lit ? lights.size() : 0) + '\n';
+    // What shows neither light nor a texture needs its outline only.
+    const bool plain =
+        plan.layer == Layer::id || (plan.layer == Layer::color && !plan.lit && item.texture < 0);
+    if (item.surface && !plain) defineSurface(*item.surface, defines);
     if (plan.layer != Layer::color) return {"model", defines};
     if (item.texture >= 0) define("TEXTURED");
     if (item.texture >= 0 && item.mapping == scene::Mapping::sphere) define("MAPPING_SPHERE");
@@ -211,6 +247,7 @@ void Painter::State::drawItems(const FramePlan& plan, const glm::mat4& clip, int
         if (program.normalFromObject >= 0)
             api.UniformMatrix3fv(program.normalFromObject, 1, GL_FALSE,
                                  glm::value_ptr(item.normalFromObject));
+        if (item.surface) setSurface(api, item, program);
         setMaterial(plan, item, program);
         const auto set = static_cast<std::size_t>(item.lightSet);
         if (plan.lit && !plan.lightSets[set].empty())

@@ -27,13 +27,14 @@ class Shader {
         const std::string head = "#version 450 core\n" + defines;
         const std::string_view common =
             name.starts_with("model") ? shaderText("common.glsl") : std::string_view{};
+        const std::string_view surface =
+            name == "model.frag" ? shaderText("surface.glsl") : std::string_view{};
         const std::string_view body = shaderText(name);
-        const std::array<const GLchar*, 3> parts{head.data(), common.data() ? common.data() : "",
-                                                 body.data()};
-        const std::array<GLint, 3> sizes{static_cast<GLint>(head.size()),
-                                         static_cast<GLint>(common.size()),
-                                         static_cast<GLint>(body.size())};
-        api_.ShaderSource(shader_, 3, parts.data(), sizes.data());
+        const std::string text =
+            head + std::string(common) + std::string(surface) + std::string(body);
+        const GLchar* const data = text.data();
+        const auto size = static_cast<GLint>(text.size());
+        api_.ShaderSource(shader_, 1, &data, &size);
         api_.CompileShader(shader_);
         GLint done = 0;
         api_.GetShaderiv(shader_, GL_COMPILE_STATUS, &done);
@@ -83,6 +84,14 @@ const LinkedProgram& ProgramCache::get(const ProgramKey& key) {
     linked.materialAmbient = at("materialAmbient");
     linked.materialSpecular = at("materialSpecular");
     linked.materialShininess = at("materialShininess");
+    linked.unitFromObject = at("unitFromObject");
+    linked.unitEye = at("unitEye");
+    linked.surfaceLengths = at("surfaceLengths");
+    linked.surfaceForm = at("surfaceForm");
+    linked.surfaceUv = at("surfaceUv");
+    linked.surfaceDiscs = at("surfaceDiscs");
+    linked.balance = at("balance");
+    linked.seenFrom = at("seenFrom");
     linked.plainColor = at("plainColor");
     linked.planeS = at("planeS");
     linked.planeT = at("planeT");

@@ -22,6 +22,8 @@ struct LinkedProgram {
     Program program;
     GLint viewFromObject, normalFromObject, clipFromView, worldFromView;
     GLint materialDiffuse, materialBase, materialAmbient, materialSpecular, materialShininess;
+    GLint unitFromObject, unitEye, surfaceLengths, surfaceForm, surfaceUv, surfaceDiscs, balance,
+        seenFrom;
     GLint plainColor, planeS, planeT, nearest, tangents;
 };
 

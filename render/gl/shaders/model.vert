@@ -4,10 +4,20 @@ layout(location = 2) in vec2 uvIn;
 layout(location = 3) in vec3 centerObject;  // FLAT: the middle of the face
 
 uniform mat4 viewFromObject;
+#ifdef SURFACE
+uniform vec3 unitFromObject;  // scale
+uniform vec3 unitEye;
+out vec3 unitPosition;
+out vec3 unitRay;
+#if defined(SURFACE_FRUSTUM) || defined(SURFACE_RING)
+flat out float cap;
+#endif
+#else
 uniform mat3 normalFromObject;
+#endif
 uniform mat4 clipFromView;
 
-#if defined(TEXGEN_OBJECT) || defined(TEXGEN_EYE)
+#if (defined(TEXGEN_OBJECT) || defined(TEXGEN_EYE)) && !defined(SURFACE)
 uniform vec4 planeS;
 uniform vec4 planeT;
 #endif
@@ -15,7 +25,7 @@ uniform vec4 planeT;
 #ifdef TEXTURED
 out vec2 uv;
 #endif
-#ifdef MAPPING_SPHERE
+#if defined(MAPPING_SPHERE) && !defined(SURFACE)
 out vec3 positionMapped;
 #endif
 #ifdef GOURAUD
@@ -30,10 +40,10 @@ flat out vec3 modulated;
 flat out vec3 added;
 #endif
 #endif
-#if defined(PHONG) || defined(LAYER_NORMAL)
+#if (defined(PHONG) || defined(LAYER_NORMAL)) && !defined(SURFACE)
 out vec3 normalView;
 #endif
-#if defined(PHONG) || defined(LAYER_DEPTH)
+#if defined(PHONG) || defined(LAYER_DEPTH) || (defined(SURFACE) && defined(TEXGEN_EYE))
 out vec3 positionView;
 #endif
 
@@ -42,6 +52,7 @@ void main() {
     gl_Position = clipFromView * position;
 #ifdef TEXTURED
     uv = uvIn;
+#ifndef SURFACE
 #ifdef TEXGEN_OBJECT
     uv = vec2(dot(planeS, vec4(positionObject, 1.0)), dot(planeT, vec4(positionObject, 1.0)));
 #endif
@@ -49,7 +60,8 @@ void main() {
     uv = vec2(dot(planeS, position), dot(planeT, position));
 #endif
 #endif
-#ifdef MAPPING_SPHERE
+#endif
+#if defined(MAPPING_SPHERE) && !defined(SURFACE)
     positionMapped = positionObject;
 #endif
 #if defined(GOURAUD) || defined(FLAT)
@@ -65,10 +77,16 @@ void main() {
     finish(primary, secondary, modulated, spare);
 #endif
 #endif
-#if defined(PHONG) || defined(LAYER_NORMAL)
+#ifdef SURFACE
+    unitPosition = positionObject * unitFromObject;
+    unitRay = unitPosition - unitEye;
+#if defined(SURFACE_FRUSTUM) || defined(SURFACE_RING)
+    cap = normalObject.x == 0.0 && normalObject.z == 0.0 ? normalObject.y : 0.0;
+#endif
+#elif defined(PHONG) || defined(LAYER_NORMAL)
     normalView = normalFromObject * normalObject;
 #endif
-#if defined(PHONG) || defined(LAYER_DEPTH)
+#if defined(PHONG) || defined(LAYER_DEPTH) || (defined(SURFACE) && defined(TEXGEN_EYE))
     positionView = position.xyz;
 #endif
 }

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "cli/command.h"
+#include "cli/settings.h"
 
 namespace farol::cli {
 namespace {
@@ -42,6 +43,7 @@ void addServe(CLI::App& root, Action& action) {
     command->add_option("--scenes", options->scenesDir, "folder of scenes to serve; default none")
         ->type_name("DIR");
     add("--workers", options->workers, "processes that draw; 0: one a core, at most 8", 0, 64);
+    add("--spares", options->spares, "processes kept ready to take the place of a lost one", 0, 64);
     add("--recycle", options->recycleAfter, "jobs a process does before it is replaced", 1,
         1'000'000);
     add("--worker-memory", options->workerMemoryMiB, "memory of a process, MiB; 0: no cap", 0,
@@ -72,10 +74,20 @@ void addServe(CLI::App& root, Action& action) {
     command
         ->add_option("--token", options->token,
                      "what storing and deleting needs: \"Authorization: Bearer TOKEN\"")
-        ->envname("FAROL_TOKEN")
         ->type_name("TOKEN");
-    command->callback(
-        [&action, options] { action = [options](Report&) { return run(*options); }; });
+    add("--cache-bytes", options->cacheBytes, "memory for pictures that were sent, bytes; 0: none",
+        0, 1LL << 40U);
+    add("--rate", options->rate.perSecond, "requests of one client a second; 0: no limit", 0, 1e6);
+    add("--burst", options->rate.burst,
+        "requests of one client at once, after a pause; 0: two seconds' worth, at least 20", 0,
+        1'000'000);
+    command->add_flag("--trust-proxy", options->rate.trustProxy,
+                      "a client is the last address of X-Forwarded-For: only behind a proxy");
+    addSettings(*command);
+    command->callback([&action, command, options] {
+        readSettings(*command);
+        action = [options](Report&) { return run(*options); };
+    });
 }
 
 }  // namespace farol::cli

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <stdexcept>
 #include <string>
@@ -32,6 +33,12 @@ struct MeshJob {
     std::string format;
 };
 
+/// Which frame of an orbiting client a picture is: only the newest of a session is worth drawing.
+struct Turn {
+    std::string session;   ///< chosen by the client; empty: not one of a session
+    std::int64_t seq = 0;  ///< grows from frame to frame
+};
+
 template <typename Result>
 struct Done {
     Result result;
@@ -46,6 +53,7 @@ struct BackendState {
     int workers = 0, busy = 0, queued = 0;
     std::map<std::string, long> restarts;  ///< of workers, by reason, since the start
     long coalesced = 0;                    ///< pictures answered by one being drawn already
+    long superseded = 0;                   ///< frames that a newer one of their session overtook
 };
 
 /// What draws and what it is kept in.
@@ -61,8 +69,10 @@ class Backend {
     virtual ~Backend() = default;
     /// A job that comes while one of the same `tag` (the picture's entity tag) is being drawn
     /// shares its picture. Where `tag` is empty, jobs of the same bytes do; the files of a folder
-    /// are not among them.
-    virtual Done<render::Picture> render(const render::Job& job, const std::string& tag) = 0;
+    /// are not among them. Busy busy.superseded where a newer frame of the same session is known
+    /// before this one is begun.
+    virtual Done<render::Picture> render(const render::Job& job, const std::string& tag,
+                                         const Turn& turn) = 0;
     virtual Done<render::SceneReport> inspect(const render::Job& job) = 0;
     virtual Done<std::string> mesh(const MeshJob& job) = 0;
     /// The files of an archive (scene/archive.h).

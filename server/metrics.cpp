@@ -72,8 +72,8 @@ void Metrics::write(std::string& out, const std::string& name, const std::string
     line(out, name + "_count" + labels, count);
 }
 
-std::string Metrics::text(const BackendState& backend, const std::string& version,
-                          const std::string& renderer) const {
+std::string Metrics::text(const BackendState& backend, PictureCache::Counts pictures,
+                          const std::string& version, const std::string& renderer) const {
     std::string out;
     const std::lock_guard lock(mutex_);
     head(out, "farol_http_requests_total", "counter", "Requests answered.");
@@ -102,6 +102,14 @@ std::string Metrics::text(const BackendState& backend, const std::string& versio
     head(out, "farol_coalesced_requests_total", "counter",
          "Pictures answered by one that was being drawn.");
     line(out, "farol_coalesced_requests_total", static_cast<double>(backend.coalesced));
+    head(out, "farol_superseded_requests_total", "counter",
+         "Frames that a newer one of their session overtook.");
+    line(out, "farol_superseded_requests_total", static_cast<double>(backend.superseded));
+    head(out, "farol_cache_requests_total", "counter", "Pictures looked for among those sent.");
+    line(out, "farol_cache_requests_total{cache=\"picture\",result=\"hit\"}",
+         static_cast<double>(pictures.hits));
+    line(out, "farol_cache_requests_total{cache=\"picture\",result=\"miss\"}",
+         static_cast<double>(pictures.misses));
     head(out, "farol_build_info", "gauge", "What is running.");
     line(out, "farol_build_info{version=" + quoted(version) + ",renderer=" + quoted(renderer) + "}",
          1);

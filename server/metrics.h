@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "server/backend.h"
+#include "server/picture_cache.h"
 
 namespace farol::server {
 
@@ -18,8 +19,8 @@ class Metrics {
     void request(const std::string& route, int status, double milliseconds);
     /// `stage` as in Server-Timing.
     void stage(const std::string& stage, double milliseconds);
-    std::string text(const BackendState& backend, const std::string& version,
-                     const std::string& renderer) const;
+    std::string text(const BackendState& backend, PictureCache::Counts pictures,
+                     const std::string& version, const std::string& renderer) const;
 
   private:
     static constexpr std::array<double, 13> kBoundsS{0.001, 0.0025, 0.005, 0.01, 0.025, 0.05, 0.1,

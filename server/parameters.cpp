@@ -115,14 +115,34 @@ Parameters readParameters(const http::Fields& query, const ParameterRules& rules
     return out;
 }
 
-int wholeNumber(const std::string& name, const std::string& value, int min, int max) {
-    int number = 0;
+std::int64_t wholeNumber(const std::string& name, const std::string& value, std::int64_t min,
+                         std::int64_t max) {
+    std::int64_t number = 0;
     const auto [end, failed] = std::from_chars(value.data(), value.data() + value.size(), number);
     if (failed != std::errc{} || end != value.data() + value.size() || number < min || number > max)
         throw fault("option.range", name,
                     name + " must be a whole number in " + std::to_string(min) + ".." +
                         std::to_string(max) + ", not " + scene::quoted(value));
     return number;
+}
+
+Turn turnOf(const Parameters& parameters) {
+    constexpr std::int64_t kMost = (std::int64_t{1} << 53U) - 1;  // what JavaScript counts to
+    Turn turn;
+    turn.session = parameters.ownValue("session");
+    const std::string seq = parameters.ownValue("seq");
+    if (turn.session.empty() && seq.empty()) return turn;
+    const auto isPlain = [](char c) {
+        return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+               c == '-' || c == '.' || c == '_';
+    };
+    if (turn.session.empty() || turn.session.size() > 64 ||
+        !std::all_of(turn.session.begin(), turn.session.end(), isPlain))
+        throw fault("option.range", "session",
+                    "session must be 1 to 64 letters, digits, \"-\", \".\" or \"_\", and seq "
+                    "needs one");
+    turn.seq = wholeNumber("seq", seq, 0, kMost);
+    return turn;
 }
 
 }  // namespace farol::server

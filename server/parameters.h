@@ -1,9 +1,11 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
 #include "render/options.h"
+#include "server/backend.h"
 #include "server/http/message.h"
 
 namespace farol::server {
@@ -33,6 +35,15 @@ Parameters readParameters(const http::Fields& query, const ParameterRules& rules
                           const std::string& fromBody = "");
 
 /// A whole number in a range, from a parameter. Throws Error option.range.
-int wholeNumber(const std::string& name, const std::string& value, int min, int max);
+std::int64_t wholeNumber(const std::string& name, const std::string& value, std::int64_t min,
+                         std::int64_t max);
+
+/// The names that turnOf() reads, for ParameterRules::ownNames.
+inline const std::vector<std::string> kTurnNames = {"session", "seq"};
+
+/// Which frame of which client a picture is. Throws Error option.range for a session that is not
+/// 1..64 letters, digits, "-", "." or "_", for a seq that is not a whole number in 0..2^53-1, and
+/// where one is given without the other.
+Turn turnOf(const Parameters& parameters);
 
 }  // namespace farol::server

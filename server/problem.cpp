@@ -16,6 +16,7 @@ int statusOf(const std::string& code) {
         {"http.uri-too-long", 414},   {"http.media-type", 415},      {"http.content-encoding", 415},
         {"busy.queue", 503},          {"busy.deadline", 503},        {"busy.draining", 503},
         {"worker.crashed", 503},      {"worker.killed", 503},        {"worker.quarantine", 503},
+        {"busy.superseded", 409},     {"limit.rate", 429},           {"not-ready", 503},
     };
     if (const auto found = kExact.find(code); found != kExact.end()) return found->second;
     for (const char* family : {"option.", "http.", "xml.", "bundle."})
@@ -31,11 +32,13 @@ std::string statusTitle(int status) {
         {405, "Method Not Allowed"},
         {406, "Not Acceptable"},
         {408, "Request Timeout"},
+        {409, "Conflict"},
         {411, "Length Required"},
         {413, "Content Too Large"},
         {414, "URI Too Long"},
         {415, "Unsupported Media Type"},
         {422, "Unprocessable Content"},
+        {429, "Too Many Requests"},
         {431, "Request Header Fields Too Large"},
         {500, "Internal Server Error"},
         {501, "Not Implemented"},

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <condition_variable>
 #include <deque>
 #include <functional>
@@ -10,9 +11,14 @@
 #include <mutex>
 #include <string>
 
+#include "render/lru.h"
 #include "server/backend.h"
 
 namespace farol::server {
+
+constexpr std::size_t kMaxSessions = 4'096;  ///< that are remembered
+
+constexpr double kMemory = 0.1;  ///< weight of the last job in their mean time
 
 struct QueueLimits {
     int waiting = 4;                             ///< jobs queued beyond those being worked on
@@ -24,12 +30,14 @@ struct QueueLimits {
 /// `limits.wait` is withdrawn; one that is not done after `limits.deadline` is given up (its
 /// worker ends it in its own time, the result is dropped). A job goes to the free worker whose
 /// last job had the same key (it has the scene warm), else to the one that is free the longest.
+/// Of the jobs of one session only the newest waits: it takes the place of the older ones.
 template <typename Worker>
 class JobQueue {
     struct Ticket {
         std::function<void(Worker&)> work;
         std::string key;
-        bool taken = false;
+        Turn turn;
+        bool taken = false, superseded = false;
         std::chrono::steady_clock::time_point takenAt;
     };
 
@@ -47,9 +55,10 @@ class JobQueue {
     /// Blocks until a worker has run `work`. Rethrows what it throws; throws Busy. `key` names
     /// what a worker is warm for.
     template <typename Result>
-    Done<Result> run(std::function<Result(Worker&)> work, std::string key = "") {
+    Done<Result> run(std::function<Result(Worker&)> work, std::string key = "", Turn turn = {}) {
         const auto ticket = std::make_shared<Ticket>();
         ticket->key = std::move(key);
+        ticket->turn = std::move(turn);
         const auto promise = std::make_shared<std::promise<Result>>();
         std::future<Result> future = promise->get_future();
         ticket->work = [promise, work = std::move(work)](Worker& worker) {
@@ -63,6 +72,7 @@ class JobQueue {
         {
             std::unique_lock lock(mutex_);
             if (closed_) throw Busy("busy.draining", "The server is shutting down.", 1);
+            supersede(ticket->turn);
             if (Seat* seat = seatFor(ticket->key)) {
                 seat->ticket = ticket;
                 take(*ticket);
@@ -73,8 +83,10 @@ class JobQueue {
             } else {
                 queue_.push_back(ticket);
             }
-            if (!taken_.wait_for(lock, limits_.wait, [&] { return ticket->taken || closed_; }) ||
-                !ticket->taken) {
+            taken_.wait_for(lock, limits_.wait,
+                            [&] { return ticket->taken || ticket->superseded || closed_; });
+            if (ticket->superseded) throw superseded();
+            if (!ticket->taken) {
                 std::erase(queue_, ticket);
                 throw Busy(closed_ ? "busy.draining" : "busy.queue",
                            "No worker became free in time.", retryAfterS());
@@ -82,7 +94,7 @@ class JobQueue {
         }
         const std::chrono::duration<double, std::milli> waited = ticket->takenAt - start;
         if (future.wait_for(limits_.deadline) != std::future_status::ready)
-            throw Busy("busy.deadline", "The work was not done in time.", retryAfterS());
+            throw Busy("busy.deadline", "The work was not done in time.", 1);
         return {future.get(), waited.count()};
     }
 
@@ -113,9 +125,12 @@ class JobQueue {
             seat.warmFor = ticket->key;
         }
         taken_.notify_all();
+        const auto begun = std::chrono::steady_clock::now();
         ticket->work(worker);
+        const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begun;
         const std::lock_guard lock(mutex_);
         --busy_;
+        meanS_ += kMemory * (took.count() - meanS_);
         return true;
     }
 
@@ -135,11 +150,33 @@ class JobQueue {
         state.busy = busy_;
         state.workers = busy_ + static_cast<int>(idle_.size());
         state.queued = static_cast<int>(queue_.size());
+        state.superseded = superseded_;
         return state;
     }
 
   private:
     // The callers hold the lock.
+    Busy superseded() {
+        ++superseded_;
+        return {"busy.superseded", "A newer frame of this session was asked for.", 0};
+    }
+
+    void supersede(const Turn& turn) {
+        if (turn.session.empty()) return;
+        if (std::int64_t* newest = newest_.find(turn.session)) {
+            if (turn.seq < *newest) throw superseded();
+            *newest = turn.seq;
+        } else {
+            newest_.put(turn.session, turn.seq, 1);
+        }
+        const auto older = [&](const std::shared_ptr<Ticket>& one) {
+            one->superseded =
+                one->superseded || (one->turn.session == turn.session && one->turn.seq < turn.seq);
+            return one->superseded;
+        };
+        if (std::erase_if(queue_, older) > 0) taken_.notify_all();
+    }
+
     void take(Ticket& ticket) {
         ticket.taken = true;
         ticket.takenAt = std::chrono::steady_clock::now();
@@ -156,17 +193,23 @@ class JobQueue {
         return seat;
     }
 
+    /// When what is here now will be done, as far as the last jobs tell.
     int retryAfterS() const {
-        const auto seconds = std::chrono::ceil<std::chrono::seconds>(limits_.wait).count();
-        return static_cast<int>(std::max<long>(1, seconds));
+        const auto workers = static_cast<double>(std::max<std::size_t>(1, idle_.size()) +
+                                                 static_cast<std::size_t>(busy_));
+        const auto jobs = static_cast<double>(queue_.size() + static_cast<std::size_t>(busy_));
+        return static_cast<int>(std::clamp(std::ceil(jobs * meanS_ / workers), 1.0, 60.0));
     }
 
     const QueueLimits limits_;
     mutable std::mutex mutex_;
     std::condition_variable taken_;
     std::deque<std::shared_ptr<Ticket>> queue_;
-    std::deque<Seat*> idle_;  ///< longest free first
+    std::deque<Seat*> idle_;                                            ///< longest free first
+    render::LruCache<std::string, std::int64_t> newest_{kMaxSessions};  ///< seq, by session
     int busy_ = 0;
+    double meanS_ = 0.1;  ///< of a job, over the last few
+    long superseded_ = 0;
     bool closed_ = false;
 };
 

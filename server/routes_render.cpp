@@ -73,15 +73,15 @@ http::Response Service::drawn(Done<render::Picture> done) {
 }
 
 http::Response Service::postRender(const Call& call) {
-    const ParameterRules rules{true, true, {}, {}};
+    const ParameterRules rules{true, true, kTurnNames, {}};
     // A fault in the query is told before the body is taken in.
-    readParameters(call.request.query, rules);
+    const Turn turn = turnOf(readParameters(call.request.query, rules));
     Upload upload = readUpload(call.request, call.body, options_.maxBodyBytes);
     Parameters wanted = readParameters(call.request.query, rules, upload.optionsJson);
     chooseFormat(wanted, call.request.header("accept"));
     upload.job.options = wanted.picture;
     upload.job.strict = wanted.strict;
-    http::Response response = drawn(backend_.render(upload.job, ""));
+    http::Response response = drawn(backend_.render(upload.job, "", turn));
     response.set("Vary", "Accept");
     response.set("Cache-Control", "no-store");
     return response;
@@ -102,7 +102,8 @@ http::Response Service::postValidate(const Call& call) {
 }
 
 http::Response Service::getImage(const Call& call, const http::Fields& preset) {
-    Parameters wanted = readParameters(call.request.query, {true, true, {}, preset});
+    Parameters wanted = readParameters(call.request.query, {true, true, kTurnNames, preset});
+    const Turn turn = turnOf(wanted);
     const ServedScene scene = sceneOf(call);
     chooseFormat(wanted, call.request.header("accept"));
     render::Job job = jobOfScene(scene);
@@ -114,10 +115,14 @@ http::Response Service::getImage(const Call& call, const http::Fields& preset) {
     const std::string tag = entityTag({job.xml, scene.version, options, backend_.version(),
                                        std::to_string(static_cast<int>(job.options.format))});
     http::Response response;
-    if (matchesTag(call.request.header("if-none-match"), tag))
+    if (matchesTag(call.request.header("if-none-match"), tag)) {
         response.status = 304;
-    else
-        response = drawn(backend_.render(job, tag));
+    } else if (auto kept = pictures_.find(tag)) {
+        response = std::move(*kept);
+    } else {
+        response = drawn(backend_.render(job, tag, turn));
+        pictures_.put(tag, response);
+    }
     response.set("ETag", tag);
     response.set("Vary", "Accept");
     return response;

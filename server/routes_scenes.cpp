@@ -108,7 +108,7 @@ http::Response Service::listScenes(const Call& call) {
     std::vector<ServedScene> all = scenes_.list();
     for (const store::Entry& entry : store_->list()) all.push_back(uploadOf(entry));
     const int pages = std::max(1, (static_cast<int>(all.size()) + kPageSize - 1) / kPageSize);
-    const int page = wholeNumber("page", wanted.ownValue("page", "1"), 1, pages);
+    const auto page = wholeNumber("page", wanted.ownValue("page", "1"), 1, pages);
     json scenes = json::array();
     const std::size_t first = static_cast<std::size_t>(page - 1) * kPageSize;
     for (std::size_t i = first; i < std::min(all.size(), first + kPageSize); ++i) {

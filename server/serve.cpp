@@ -28,6 +28,7 @@ void checkOptions(const ServeOptions& options) {
     range("threads", options.listen.threads, 1, 1024);
     range("max-connections", options.listen.maxConnections, 1, 100'000);
     range("workers", options.workers, 0, 64);
+    range("spares", options.spares, 0, 64);
     range("recycle", options.recycleAfter, 1, 1'000'000);
     range("worker-memory", static_cast<long>(options.workerMemoryMiB), 0, 1L << 20);
     range("queue", options.queue.waiting, 0, 10'000);
@@ -71,6 +72,7 @@ int serve(const ServeOptions& options) {
     pool.workers = options.workers;
     if (pool.workers == 0)  // a core each: one picture's work is spread over cores in part only
         pool.workers = std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, 8);
+    pool.spares = options.spares;
     pool.recycleAfter = options.recycleAfter;
     pool.quarantine = std::chrono::ceil<std::chrono::seconds>(options.quarantine);
     pool.worker.memoryBytes = options.workerMemoryMiB << 20U;
@@ -84,6 +86,8 @@ int serve(const ServeOptions& options) {
     ServiceOptions service;
     service.scenesDir = options.scenesDir;
     service.maxBodyBytes = options.maxBodyBytes;
+    service.cacheBytes = options.cacheBytes;
+    service.rate = options.rate;
     service.corsOrigin = options.corsOrigin;
     service.store = openStore(options, logger);
     service.token = options.token;

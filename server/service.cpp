@@ -53,6 +53,8 @@ Service::Service(ServiceOptions options, Backend& backend, Logger& logger)
                                   store::StoreLimits{kMemoryStoreBytes, 10'000})),
       backend_(backend),
       logger_(logger),
+      pictures_(options_.cacheBytes),
+      limiter_(options_.rate),
       scenes_(options_.scenesDir),
       router_(routes()) {}
 
@@ -95,6 +97,8 @@ std::vector<Route> Service::routes() {
 http::Response Service::handle(const http::Request& request, http::Body& body) {
     http::Response response;
     try {
+        if (limiter_.isOn() && request.path.starts_with("/v1/"))
+            limiter_.admit(clientOf(request, options_.rate.trustProxy));
         response = router_.route(request, body);
     } catch (const Error& error) {
         Problem problem = problemOf(error);
@@ -108,12 +112,10 @@ http::Response Service::handle(const http::Request& request, http::Body& body) {
             problem.headers.emplace_back("WWW-Authenticate", "Bearer realm=\"farol\"");
         response = problemResponse(problem, request.id);
     } catch (const Busy& busy) {
-        response = problemResponse({503,
-                                    busy.code(),
-                                    busy.what(),
-                                    {},
-                                    {{"Retry-After", std::to_string(busy.retryAfterS())}}},
-                                   request.id);
+        Problem problem{statusOf(busy.code()), busy.code(), busy.what(), {}, {}};
+        if (busy.retryAfterS() > 0)
+            problem.headers.emplace_back("Retry-After", std::to_string(busy.retryAfterS()));
+        response = problemResponse(problem, request.id);
     } catch (const std::exception& fault) {
         // What went wrong is for the operator; the client gets the id to ask about.
         logger_.event("internal-error", request.id + ": " + fault.what());
@@ -216,7 +218,8 @@ http::Response Service::metrics(const Call& call) {
     noParameters(call);
     http::Response response;
     response.contentType = "text/plain; version=0.0.4; charset=utf-8";
-    response.body = metrics_.text(backend_.state(), projectVersion(), backend_.version());
+    response.body =
+        metrics_.text(backend_.state(), pictures_.counts(), projectVersion(), backend_.version());
     response.set("Cache-Control", "no-store");
     return response;
 }

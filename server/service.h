@@ -12,6 +12,8 @@
 #include "server/log.h"
 #include "server/metrics.h"
 #include "server/parameters.h"
+#include "server/picture_cache.h"
+#include "server/rate_limiter.h"
 #include "server/router.h"
 #include "server/scenes.h"
 #include "server/store/scene_store.h"
@@ -21,6 +23,8 @@ namespace farol::server {
 struct ServiceOptions {
     std::string scenesDir;  ///< empty: no scenes are served
     std::size_t maxBodyBytes = 16U << 20;
+    std::size_t cacheBytes = std::size_t{64} << 20U;  ///< of pictures kept; 0: none
+    RateLimit rate;
     std::string corsOrigin;                    ///< Access-Control-Allow-Origin; empty: not sent
     std::shared_ptr<store::SceneStore> store;  ///< of uploads; null: a small one in memory
     std::string token;                         ///< that writing to the store needs; empty: none
@@ -81,6 +85,8 @@ class Service final : public http::Handler {
     Backend& backend_;
     Logger& logger_;
     Metrics metrics_;
+    PictureCache pictures_;
+    RateLimiter limiter_;
     SceneFolder scenes_;
     Router router_;
     std::atomic<bool> draining_{false};

@@ -10,7 +10,16 @@ namespace {
 
 // How often an idle worker is looked at, so that one that died is replaced before it is needed.
 constexpr std::chrono::milliseconds kLook{200};
-constexpr std::chrono::milliseconds kLongestPause{5'000};
+// How long a request that met a lost worker waits for the next one.
+constexpr std::chrono::milliseconds kReplacement{2'000};
+
+// A start takes a core for a quarter of a second: side by side pays up to a few.
+constexpr int kStarters = 4;
+
+WorkerOptions withSaid(WorkerOptions options, int descriptor) {
+    options.said = descriptor;
+    return options;
+}
 
 QueueLimits withSlack(QueueLimits limits) {
     // The slot's thread keeps the deadline; the queue's own comes into play only if it cannot.
@@ -35,11 +44,21 @@ std::string sceneOf(const render::Job& job) {
 WorkerPool::WorkerPool(PoolOptions options, Logger& logger)
     : options_(std::move(options)),
       logger_(logger),
+      said_([this](const std::string& line) { logger_.event("worker-said", line); }),
+      nursery_({withSaid(options_.worker, said_.descriptor()),
+                std::max(1, std::min(options_.workers, kStarters)), options_.spares},
+               [this](const std::string& fault) {
+                   logger_.event("worker-start", fault);
+                   const std::lock_guard lock(mutex_);
+                   anyFailed_ = true;
+                   changed_.notify_all();
+               }),
       queue_(withSlack(options_.queue)),
       quarantine_(options_.quarantine) {
+    nursery_.begin(options_.workers);
     for (int i = 0; i < options_.workers; ++i) threads_.emplace_back([this, i] { run(i); });
     std::unique_lock lock(mutex_);
-    changed_.wait(lock, [this] { return anyReady_ || settled_ == options_.workers; });
+    changed_.wait(lock, [this] { return anyReady_ || anyFailed_; });
 }
 
 WorkerPool::~WorkerPool() { stop(); }
@@ -49,7 +68,7 @@ void WorkerPool::stop() {
         const std::lock_guard lock(mutex_);
         stopping_ = true;
     }
-    changed_.notify_all();
+    nursery_.stop();
     queue_.close();
     for (std::thread& thread : threads_) thread.join();
     threads_.clear();
@@ -63,10 +82,9 @@ void WorkerPool::run(int index) {
     slot.jobs = static_cast<long>(options_.recycleAfter) * index / options_.workers;
     Queue::Seat seat;
     for (;;) {
-        const bool drew = ready(slot);
-        if (!drew) {
-            std::unique_lock lock(mutex_);
-            if (changed_.wait_for(lock, slot.pause, [this] { return stopping_; })) break;
+        if (!ready(slot, kLook)) {
+            const std::lock_guard lock(mutex_);
+            if (stopping_) break;
             continue;
         }
         if (!queue_.workOnce(slot, seat, kLook)) break;
@@ -76,15 +94,14 @@ void WorkerPool::run(int index) {
     pids_.erase(index);
 }
 
-bool WorkerPool::ready(Slot& slot) {
+bool WorkerPool::ready(Slot& slot, std::chrono::milliseconds patience) {
     if (slot.process && !slot.process->alive()) drop(slot, "idle");
     if (slot.process && slot.jobs >= options_.recycleAfter) drop(slot, "recycled");
     if (slot.process) return true;
-    try {
-        auto process = std::make_unique<WorkerProcess>(options_.worker);
-        slot.pause = std::chrono::milliseconds(0);
+    slot.process = nursery_.take(patience);
+    if (!slot.process) return false;
+    {
         const std::lock_guard lock(mutex_);
-        slot.process = std::move(process);
         pids_[slot.index] = slot.process->pid();
         if (facts_.sandbox.empty()) {
             facts_ = {slot.process->hello().gl, slot.process->hello().sandbox};
@@ -92,16 +109,9 @@ bool WorkerPool::ready(Slot& slot) {
                 if (state.starts_with("missing")) logger_.event("sandbox", layer + ": " + state);
         }
         anyReady_ = true;
-    } catch (const std::exception& fault) {
-        slot.pause = std::clamp(slot.pause * 2, std::chrono::milliseconds(100), kLongestPause);
-        logger_.event("worker-start", fault.what());
-    }
-    {
-        const std::lock_guard lock(mutex_);
-        ++settled_;
     }
     changed_.notify_all();
-    return slot.process != nullptr;
+    return true;
 }
 
 void WorkerPool::drop(Slot& slot, const std::string& reason) {
@@ -124,7 +134,7 @@ void WorkerPool::admit(const std::string& scene) {
 
 Reply WorkerPool::askSlot(Slot& slot, const std::string& request, const std::string& scene) {
     if (slot.process && !slot.process->alive()) drop(slot, "idle");
-    if (!slot.process && !ready(slot))
+    if (!slot.process && !ready(slot, kReplacement))
         throw Busy("worker.crashed", "No worker could be started for this request.", 2);
     ++slot.jobs;
     try {
@@ -169,45 +179,55 @@ Reply WorkerPool::judged(Reply reply) const {
 }
 
 // What is packed is shared: a caller that gives up leaves it behind.
-Done<Reply> WorkerPool::ask(std::string packed, const std::string& scene) {
+Done<Reply> WorkerPool::ask(std::string packed, const std::string& scene, const Turn& turn) {
     if (!scene.empty()) admit(scene);
     const auto request = std::make_shared<const std::string>(std::move(packed));
     Done<Reply> done = queue_.run<Reply>(
-        [this, request, scene](Slot& slot) { return askSlot(slot, *request, scene); }, scene);
+        [this, request, scene](Slot& slot) { return askSlot(slot, *request, scene); }, scene, turn);
     done.result = judged(std::move(done.result));
     return done;
 }
 
-Done<render::Picture> WorkerPool::draw(const render::Job& job, std::string packed) {
-    Done<Reply> done = ask(std::move(packed), sceneOf(job));
+Done<render::Picture> WorkerPool::draw(const render::Job& job, std::string packed,
+                                       const Turn& turn) {
+    Done<Reply> done = ask(std::move(packed), sceneOf(job), turn);
     // A worker that is not ours any more must not choose a header of the answer.
     done.result.picture.contentType = render::contentType(job.options.format);
     return {std::move(done.result.picture), done.queueMs};
 }
 
-Done<render::Picture> WorkerPool::render(const render::Job& job, const std::string& tag) {
+Done<render::Picture> WorkerPool::render(const render::Job& job, const std::string& tag,
+                                         const Turn& turn) {
     Request request;
     request.task = Task::render;
     request.job = job;
     std::string packed = pack(request);
     const std::string key = tag.empty() ? scene::contentDigest(packed) : tag;
     std::promise<Done<render::Picture>> promise;
-    {
+    for (;;) {
         std::unique_lock lock(mutex_);
-        if (const auto found = inFlight_.find(key); found != inFlight_.end()) {
-            const Shared shared = found->second;
-            lock.unlock();
-            ++coalesced_;
-            return shared.get();
+        const auto found = inFlight_.find(key);
+        if (found == inFlight_.end()) {
+            inFlight_.emplace(key, promise.get_future().share());
+            break;
         }
-        inFlight_.emplace(key, promise.get_future().share());
+        const Shared shared = found->second;
+        lock.unlock();
+        ++coalesced_;
+        try {
+            return shared.get();
+        } catch (const Busy& busy) {
+            // Whoever asked first was overtaken by a frame of its own session, not by one of ours.
+            if (busy.code() != "busy.superseded") throw;
+            --coalesced_;
+        }
     }
     const auto forget = [&] {
         const std::lock_guard lock(mutex_);
         inFlight_.erase(key);
     };
     try {
-        Done<render::Picture> done = draw(job, std::move(packed));
+        Done<render::Picture> done = draw(job, std::move(packed), turn);
         forget();
         promise.set_value(done);
         return done;

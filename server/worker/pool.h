@@ -12,8 +12,9 @@
 #include "server/backend.h"
 #include "server/log.h"
 #include "server/queue.h"
-#include "server/worker/process.h"
+#include "server/worker/nursery.h"
 #include "server/worker/quarantine.h"
+#include "server/worker/said.h"
 
 namespace farol::server::worker {
 
@@ -21,6 +22,7 @@ struct PoolOptions {
     int workers = 1;
     QueueLimits queue;
     WorkerOptions worker;
+    int spares = 1;                        ///< processes kept ready to take a lost one's place
     int recycleAfter = 1'000;              ///< jobs a process does before it is replaced
     std::chrono::seconds quarantine{600};  ///< for a scene that ended two workers
 };
@@ -35,7 +37,8 @@ class WorkerPool final : public Backend {
     WorkerPool(PoolOptions options, Logger& logger);
     ~WorkerPool() override;
 
-    Done<render::Picture> render(const render::Job& job, const std::string& tag) override;
+    Done<render::Picture> render(const render::Job& job, const std::string& tag,
+                                 const Turn& turn) override;
     Done<render::SceneReport> inspect(const render::Job& job) override;
     Done<std::string> mesh(const MeshJob& job) override;
     Done<scene::Bundle> unpack(const std::string& archive) override;
@@ -53,29 +56,29 @@ class WorkerPool final : public Backend {
     struct Slot {
         int index = 0;
         std::unique_ptr<WorkerProcess> process;
-        long jobs = 0;                       ///< done by this process
-        std::chrono::milliseconds pause{0};  ///< after a start that failed
+        long jobs = 0;  ///< done by this process
     };
     using Queue = JobQueue<Slot>;
     using Shared = std::shared_future<Done<render::Picture>>;
 
     void run(int index);
-    bool ready(Slot& slot);
+    bool ready(Slot& slot, std::chrono::milliseconds patience);
     void drop(Slot& slot, const std::string& reason);
-    Done<Reply> ask(std::string packed, const std::string& scene);
+    Done<Reply> ask(std::string packed, const std::string& scene, const Turn& turn = {});
     Reply askSlot(Slot& slot, const std::string& request, const std::string& scene);
     Reply judged(Reply reply) const;
-    Done<render::Picture> draw(const render::Job& job, std::string packed);
+    Done<render::Picture> draw(const render::Job& job, std::string packed, const Turn& turn);
     void admit(const std::string& scene);
 
     const PoolOptions options_;
     Logger& logger_;
+    Said said_;
+    Nursery nursery_;
     Queue queue_;
     Quarantine quarantine_;
     mutable std::mutex mutex_;
     std::condition_variable changed_;
-    int settled_ = 0;  ///< slots that have started once, or failed to
-    bool anyReady_ = false, stopping_ = false;
+    bool anyReady_ = false, anyFailed_ = false, stopping_ = false;
     BackendFacts facts_;
     std::map<std::string, long> restarts_;
     std::map<int, pid_t> pids_;

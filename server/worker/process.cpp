@@ -53,7 +53,8 @@ pid_t spawn(const WorkerOptions& options, int socket) {
     sigfillset(&all);
     pid_t pid = -1;
     int error = posix_spawn_file_actions_addopen(&files, 0, "/dev/null", O_RDONLY, 0);
-    if (error == 0) error = posix_spawn_file_actions_adddup2(&files, 2, 1);
+    if (error == 0) error = posix_spawn_file_actions_adddup2(&files, options.said, 1);
+    if (error == 0) error = posix_spawn_file_actions_adddup2(&files, options.said, 2);
     if (error == 0) error = posix_spawn_file_actions_adddup2(&files, socket, kSocket);
     if (error == 0) error = posix_spawn_file_actions_addclosefrom_np(&files, kSocket + 1);
     if (error == 0) error = posix_spawnattr_setsigmask(&attributes, &none);

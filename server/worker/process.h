@@ -32,6 +32,7 @@ struct WorkerOptions {
     std::string program = "/proc/self/exe";
     std::string scenesDir;                    ///< what workers may read; empty: nothing
     std::size_t memoryBytes = 0;              ///< private memory; 0: no cap
+    int said = 2;                             ///< descriptor that they print to
     std::chrono::milliseconds start{30'000};  ///< to be ready to draw
 };
 

@@ -32,6 +32,11 @@ void check(const std::vector<Case>& cases) {
 TEST_CASE("what the command line gets wrong is exit code 2") {
     freshFolder("usage");
     writeFile("scene.xml", kScene);
+    writeFile("unknown.toml", "prot = 8080\n");
+    writeFile("range.toml", "port = 99999\n");
+    writeFile("section.toml", "[serve]\nport = 8080\n");
+    writeFile("list.toml", "scenes = [\"a\", \"b\"]\n");
+    writeFile("flag.toml", "trust-proxy = maybe\n");
     check({
         {"", 2, {"subcommand", "[usage]"}},
         {"paint", 2, {"[usage]"}},
@@ -69,6 +74,12 @@ TEST_CASE("what the command line gets wrong is exit code 2") {
         {"serve --port 0 --scenes nowhere", 2, {"nowhere"}},
         {"serve --deadline nan", 2, {"--deadline", "nan"}},
         {"serve --wait -1", 2, {"--wait"}},
+        {"serve --config nowhere.toml", 2, {"nowhere.toml"}},
+        {"serve --config unknown.toml", 2, {"unknown.toml", "prot", "no such setting"}},
+        {"serve --config range.toml", 2, {"range.toml", "port", "0..65535"}},
+        {"serve --config section.toml", 2, {"section.toml", "sections"}},
+        {"serve --config list.toml", 2, {"list.toml", "scenes", "one value"}},
+        {"serve --config flag.toml", 2, {"flag.toml", "trust-proxy", "true or false"}},
         {"health --timeout inf", 2, {"--timeout"}},
         {"health not-a-url", 2, {"not-a-url"}},
         {"health https://127.0.0.1", 2, {"http://host:port"}},

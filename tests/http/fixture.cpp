@@ -7,7 +7,8 @@
 
 namespace farol::test {
 
-server::Done<render::Picture> FakeBackend::render(const render::Job& job, const std::string&) {
+server::Done<render::Picture> FakeBackend::render(const render::Job& job, const std::string&,
+                                                  const server::Turn&) {
     ++renders;
     if (onRender) return {onRender(job), 0.5};
     render::Picture picture;

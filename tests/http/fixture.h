@@ -22,12 +22,13 @@ class FakeBackend final : public server::Backend {
     std::atomic<int> renders{0}, inspections{0};
     std::string name = "fake 1";
 
-    server::Done<render::Picture> render(const render::Job& job, const std::string& tag) override;
+    server::Done<render::Picture> render(const render::Job& job, const std::string& tag,
+                                         const server::Turn& turn) override;
     server::Done<render::SceneReport> inspect(const render::Job& job) override;
     server::Done<std::string> mesh(const server::MeshJob& job) override;
     server::Done<scene::Bundle> unpack(const std::string& archive) override;
     void check() override;
-    server::BackendState state() const override { return {1, 0, 0, {}, 0}; }
+    server::BackendState state() const override { return {1, 0, 0, {}, 0, 0}; }
     std::string version() const override { return name; }
 };
 

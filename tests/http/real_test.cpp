@@ -237,6 +237,52 @@ TEST_CASE("bad input is never a crash and never a 200") {
     CHECK(get(server.port(), "/readyz").status == 200);
 }
 
+TEST_CASE("a picture that was sent is kept, and says so") {
+    server::ServiceOptions options;
+    options.scenesDir = std::string(FAROL_SOURCE_DIR) + "/scenes";
+    RealServer server(options);
+    const std::string id = get(server.port(), "/v1/scenes").json()["scenes"][0]["id"];
+    const std::string path = "/v1/scenes/" + id + "/image?width=32&height=32";
+    const Answer drawn = get(server.port(), path);
+    const Answer kept = get(server.port(), path);
+    REQUIRE(drawn.status == 200);
+    CHECK(kept.body == drawn.body);
+    CHECK(kept.header("etag") == drawn.header("etag"));
+    CHECK(kept.header("x-farol-stats") == drawn.header("x-farol-stats"));
+    CHECK(drawn.header("server-timing").find("draw;dur=") != std::string::npos);
+    CHECK(kept.header("server-timing") == "cache;desc=hit");
+    const std::string metrics = get(server.port(), "/metrics").body;
+    for (const char* result : {"hit", "miss"})
+        CHECK(metrics.find("farol_cache_requests_total{cache=\"picture\",result=\"" +
+                           std::string(result) + "\"} 1\n") != std::string::npos);
+}
+
+TEST_CASE("frames of a session have a number, and an old one is not drawn") {
+    server::ServiceOptions options;
+    options.scenesDir = std::string(FAROL_SOURCE_DIR) + "/scenes";
+    RealServer server(options);
+    const std::string id = get(server.port(), "/v1/scenes").json()["scenes"][0]["id"];
+    const auto ask = [&](const std::string& query) {
+        return get(server.port(), "/v1/scenes/" + id + "/image?width=24&height=24&" + query);
+    };
+    const Answer second = ask("azimuth=1&session=page-1&seq=2");
+    CHECK(second.status == 200);
+    const Answer first = ask("azimuth=2&session=page-1&seq=1");
+    CHECK(first.status == 409);
+    CHECK(first.code() == "busy.superseded");
+    CHECK(ask("azimuth=2&session=page-2&seq=1").status == 200);
+    // The frame's number is no part of the picture.
+    CHECK(ask("azimuth=1&session=page-1&seq=9007199254740991").header("etag") ==
+          second.header("etag"));
+    for (const char* wrong : {"session=a", "seq=1", "session=a%20b&seq=1", "session=a&seq=-1",
+                              "session=a&seq=1.5", "session=a&seq=9007199254740992"}) {
+        INFO(wrong);
+        const Answer refused = ask(wrong);
+        CHECK(refused.status == 400);
+        CHECK(refused.code() == "option.range");
+    }
+}
+
 TEST_CASE("a scene that can be drawn is valid and counted") {
     RealServer server;
     const auto report = post(server.port(), "/v1/validate", model("box_2_3.3d")).json();

@@ -55,7 +55,7 @@ bool allGone(const std::vector<pid_t>& pids) {
 
 TEST_CASE("workers end with the program, however it ends") {
     for (const int number : {SIGTERM, SIGKILL}) {
-        Daemon daemon({"--port", "0", "--workers", "2"});
+        Daemon daemon({"--port", "0", "--workers", "2", "--spares", "0"});
         const int port = portIn(daemon.firstLine());
         REQUIRE(get(port, "/readyz").status == 200);
         const std::vector<pid_t> workers = childrenOf(daemon.pid());
@@ -67,7 +67,7 @@ TEST_CASE("workers end with the program, however it ends") {
 }
 
 TEST_CASE("the program tells what its workers are kept in, and counts") {
-    Daemon daemon({"--port", "0", "--workers", "1"});
+    Daemon daemon({"--port", "0", "--workers", "1", "--spares", "0"});
     const int port = portIn(daemon.firstLine());
     const auto sandbox = get(port, "/version").json()["sandbox"];
     for (const char* layer : {"noNewPrivileges", "limits", "landlock", "seccomp", "deathSignal"})
@@ -126,6 +126,37 @@ TEST_CASE("a render in flight is answered when the program is told to end") {
     CHECK(answer.status == 200);
     CHECK(answer.closed);
     CHECK(daemon.exitCode() == 0);
+}
+
+TEST_CASE("a flag wins over the environment, the environment over the file") {
+    const TemporaryFolder folder("settings");
+    folder.write("farol.toml",
+                 "port = 1        # taken by the flag\n"
+                 "max-body = 100  # by the environment\n"
+                 "workers = 1\ncors = \"https://example.org\"\n");
+    setenv("FAROL_CONFIG", (folder.path() + "/farol.toml").c_str(), 1);
+    setenv("FAROL_MAX_BODY", "50", 1);
+    Daemon daemon({"--port", "0"});
+    unsetenv("FAROL_CONFIG");
+    unsetenv("FAROL_MAX_BODY");
+    const int port = portIn(daemon.firstLine());
+    const Answer big = post(port, "/v1/validate", std::string(51, 'x'), "text/xml");
+    CHECK(big.status == 413);
+    const Answer small = post(port, "/v1/validate", std::string(50, 'x'), "text/xml");
+    CHECK(small.status == 400);
+    CHECK(small.header("access-control-allow-origin") == "https://example.org");
+    CHECK(get(port, "/readyz").json()["workers"] == 1);
+}
+
+TEST_CASE("a client that asks too often is told when to come back") {
+    Daemon daemon({"--port", "0", "--workers", "1", "--rate", "1", "--burst", "3"});
+    const int port = portIn(daemon.firstLine());
+    for (int i = 0; i < 3; ++i) CHECK(get(port, "/v1/primitives").status == 200);
+    const Answer refused = get(port, "/v1/primitives");
+    CHECK(refused.status == 429);
+    CHECK(refused.code() == "limit.rate");
+    CHECK(refused.header("retry-after") == "1");
+    CHECK(get(port, "/livez").status == 200);  // whoever watches the service is not a client of it
 }
 
 TEST_CASE("serve that cannot listen says so and fails") {

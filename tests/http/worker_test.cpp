@@ -29,6 +29,7 @@ PoolOptions options(int workers = 1) {
     options.workers = workers;
     options.queue = {16, 60s, 60s};
     options.worker.program = FAROL_BINARY;
+    options.spares = 0;  // so that a test knows which processes there are
     return options;
 }
 
@@ -62,7 +63,7 @@ std::string codeWhenHit(WorkerPool& pool, const render::Job& job, int signal) {
     const pid_t pid = pool.pids().at(0);
     kill(pid, SIGSTOP);
     std::string code;
-    std::thread client([&] { code = codeOf([&] { pool.render(job, ""); }); });
+    std::thread client([&] { code = codeOf([&] { pool.render(job, "", {}); }); });
     while (pool.state().busy == 0) std::this_thread::sleep_for(1ms);
     kill(pid, signal);
     if (signal != SIGKILL) kill(pid, SIGCONT);
@@ -84,7 +85,7 @@ TEST_CASE("a worker that is killed costs one request and is replaced") {
     WorkerPool pool(options(), quiet());
     CHECK(codeWhenHit(pool, boxJob(), SIGKILL) == "worker.killed");
     CHECK(restarts(pool, "killed") == 1);
-    CHECK(pool.render(boxJob(), "").result.bytes.size() > 50);
+    CHECK(pool.render(boxJob(), "", {}).result.bytes.size() > 50);
     // One that dies while nobody needs it costs nothing.
     const pid_t idle = pool.pids().at(0);
     kill(idle, SIGKILL);
@@ -99,7 +100,7 @@ TEST_CASE("a worker that hangs is ended at the deadline") {
     WorkerPool pool(impatient, quiet());
     const pid_t before = pool.pids().at(0);
     kill(before, SIGSTOP);
-    CHECK(codeOf([&] { pool.render(boxJob(), ""); }) == "busy.deadline");
+    CHECK(codeOf([&] { pool.render(boxJob(), "", {}); }) == "busy.deadline");
     CHECK(restarts(pool, "deadline") == 1);
     CHECK_FALSE(exists(before));
     CHECK(codeOf([&] { pool.check(); }) == "done");
@@ -111,9 +112,9 @@ TEST_CASE("a scene that ends two workers is kept out, others are not") {
     CHECK(codeOf([&] { pool.check(); }) == "done");  // the next worker is there
     CHECK(codeWhenHit(pool, boxJob("10"), SIGSEGV) == "worker.crashed");
     CHECK(restarts(pool, "crash") == 2);
-    CHECK(codeOf([&] { pool.render(boxJob("10"), ""); }) == "worker.quarantine");
+    CHECK(codeOf([&] { pool.render(boxJob("10"), "", {}); }) == "worker.quarantine");
     CHECK(codeOf([&] { pool.inspect(boxJob("10")); }) == "worker.quarantine");
-    CHECK(codeOf([&] { pool.render(boxJob("20"), ""); }) == "done");
+    CHECK(codeOf([&] { pool.render(boxJob("20"), "", {}); }) == "done");
     CHECK(restarts(pool, "crash") == 2);
 }
 
@@ -144,8 +145,8 @@ TEST_CASE("workers are replaced after their share of jobs, and no job notices") 
     PoolOptions often = options();
     often.recycleAfter = 3;
     WorkerPool pool(often, quiet());
-    const std::string first = pool.render(boxJob(), "").result.bytes;
-    for (int i = 0; i < 8; ++i) CHECK(pool.render(boxJob(), "").result.bytes == first);
+    const std::string first = pool.render(boxJob(), "", {}).result.bytes;
+    for (int i = 0; i < 8; ++i) CHECK(pool.render(boxJob(), "", {}).result.bytes == first);
     CHECK(restarts(pool, "recycled") >= 2);
 }
 
@@ -156,13 +157,13 @@ TEST_CASE("pictures asked for while they are being drawn are drawn once") {
     std::vector<std::thread> clients;
     std::vector<std::string> pictures(4);
     for (std::string& picture : pictures)
-        clients.emplace_back([&] { picture = pool.render(boxJob(), "\"tag\"").result.bytes; });
+        clients.emplace_back([&] { picture = pool.render(boxJob(), "\"tag\"", {}).result.bytes; });
     while (pool.state().coalesced < 3) std::this_thread::sleep_for(1ms);
     kill(pid, SIGCONT);
     for (std::thread& client : clients) client.join();
     CHECK_FALSE(pictures[0].empty());
     for (const std::string& picture : pictures) CHECK(picture == pictures[0]);
-    pool.render(boxJob(), "\"tag\"");  // over: drawn anew
+    pool.render(boxJob(), "\"tag\"", {});  // over: drawn anew
     CHECK(pool.state().coalesced == 3);
 }
 
@@ -176,11 +177,47 @@ TEST_CASE("a scene that wants too much memory fails alone") {
     render::Job hog = boxJob();
     hog.options.width = hog.options.height = 4096;
     hog.options.samples = 4;  // 64 bytes a pixel and more
-    const std::string code = codeOf([&] { pool.render(hog, ""); });
+    const std::string code = codeOf([&] { pool.render(hog, "", {}); });
     INFO(code);
     CHECK((code == "limit.memory" || code == "worker.crashed"));
-    CHECK(codeOf([&] { pool.render(boxJob(), ""); }) == "done");
+    CHECK(codeOf([&] { pool.render(boxJob(), "", {}); }) == "done");
 #endif
+}
+
+TEST_CASE("a spare takes a lost worker's place before it could have been started") {
+    PoolOptions spared = options();
+    spared.spares = 1;
+    WorkerPool pool(spared, quiet());
+    pool.check();
+    const pid_t before = pool.pids().at(0);
+    kill(before, SIGKILL);
+    for (int i = 0; i < 100 && codeOf([&] { pool.render(boxJob(), "", {}); }) != "done"; ++i)
+        std::this_thread::sleep_for(10ms);
+    CHECK(pool.pids().at(0) != before);
+    CHECK(codeOf([&] { pool.render(boxJob(), "", {}); }) == "done");
+}
+
+TEST_CASE("what a worker prints becomes a line of the log") {
+    std::mutex mutex;
+    std::vector<std::string> lines;
+    Logger logger([&](const std::string& line) {
+        const std::lock_guard lock(mutex);
+        lines.push_back(line);
+    });
+    {
+        server::worker::Said said(
+            [&](const std::string& line) { logger.event("worker-said", line); });
+        const std::string text = "libpng error: \"bad\" IDAT\nunfinished";
+        REQUIRE(write(said.descriptor(), text.data(), text.size()) ==
+                static_cast<ssize_t>(text.size()));
+        const std::string flood(1 << 20, 'x');  // more than the pipe takes: nobody waits
+        CHECK(write(said.descriptor(), flood.data(), flood.size()) <
+              static_cast<ssize_t>(flood.size()));
+    }
+    const std::lock_guard lock(mutex);
+    REQUIRE(lines.size() == 2);
+    CHECK(lines[0].find("libpng error: \\\"bad\\\" IDAT") != std::string::npos);
+    CHECK(lines[1].size() < 1'000);
 }
 
 TEST_CASE("workers end with the pool") {

@@ -143,3 +143,46 @@ TEST_CASE("closing refuses those that wait and ends those that run") {
     CHECK(refused == 1);
     CHECK_THROWS_AS(run(pool, [] { return 9; }), Busy);
 }
+
+TEST_CASE("of a session only the newest frame waits") {
+    Pool pool({4, 10s, 10s});
+    std::atomic<bool> release{false};
+    std::atomic<int> drawn{0};
+    const auto frame = [&](const std::string& session, std::int64_t seq) -> std::string {
+        try {
+            pool.queue.run<int>(
+                [&](Nobody&) {
+                    while (!release) std::this_thread::sleep_for(1ms);
+                    return ++drawn;
+                },
+                "", {session, seq});
+            return "drawn";
+        } catch (const Busy& busy) {
+            return busy.code();
+        }
+    };
+    const auto waitFor = [&](int busy, int queued) {
+        while (pool.queue.state().busy != busy || pool.queue.state().queued != queued)
+            std::this_thread::yield();
+    };
+    std::string first, second, third, other;
+    std::thread a([&] { first = frame("one", 1); });
+    waitFor(1, 0);  // being worked on: it is not taken back
+    std::thread b([&] { second = frame("one", 2); });
+    waitFor(1, 1);
+    std::thread c([&] { other = frame("two", 1); });
+    waitFor(1, 2);
+    std::thread d([&] { third = frame("one", 3); });
+    b.join();  // at once, not when its turn comes
+    CHECK(second == "busy.superseded");
+    waitFor(1, 2);
+    CHECK(frame("one", 2) == "busy.superseded");  // it arrives late
+    release = true;
+    for (std::thread* one : {&a, &c, &d}) one->join();
+    CHECK(first == "drawn");
+    CHECK(third == "drawn");
+    CHECK(other == "drawn");
+    CHECK(drawn == 3);
+    CHECK(frame("one", 3) == "drawn");  // the same frame again is not an older one
+    CHECK(pool.queue.state().superseded == 2);
+}

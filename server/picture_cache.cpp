@@ -1,0 +1,39 @@
+#include "server/picture_cache.h"
+
+namespace farol::server {
+namespace {
+
+// One picture must not sweep out all others.
+constexpr std::size_t kLeastPictures = 4;
+
+std::size_t costOf(const http::Response& response) {
+    std::size_t bytes = response.body.size() + sizeof response;
+    for (const auto& [name, value] : response.headers) bytes += name.size() + value.size();
+    return bytes;
+}
+
+}  // namespace
+
+std::optional<http::Response> PictureCache::find(const std::string& tag) {
+    Kept found;
+    {
+        const std::lock_guard lock(mutex_);
+        if (const Kept* kept = kept_.find(tag)) found = *kept;
+    }
+    ++(found ? hits_ : misses_);
+    if (!found) return std::nullopt;
+    return *found;  // copied outside of the lock
+}
+
+void PictureCache::put(const std::string& tag, const http::Response& response) {
+    const std::size_t cost = costOf(response);
+    if (cost > most_ / kLeastPictures) return;
+    auto kept = std::make_shared<http::Response>(response);
+    kept->logged.clear();
+    std::erase_if(kept->headers, [](const auto& field) { return field.first == "Server-Timing"; });
+    kept->set("Server-Timing", "cache;desc=hit");
+    const std::lock_guard lock(mutex_);
+    if (kept_.find(tag) == nullptr) kept_.put(tag, std::move(kept), cost);
+}
+
+}  // namespace farol::server

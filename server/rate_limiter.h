@@ -1,0 +1,43 @@
+#pragma once
+
+#include <chrono>
+#include <mutex>
+#include <string>
+
+#include "render/lru.h"
+#include "server/http/message.h"
+
+namespace farol::server {
+
+struct RateLimit {
+    double perSecond = 0;     ///< requests of one client; 0: no limit
+    int burst = 0;            ///< at once, after a pause; 0: two seconds' worth, at least 20
+    bool trustProxy = false;  ///< the client is the last address of X-Forwarded-For
+};
+
+/// Who a request counts for: the peer's address, or the one that our own proxy saw; an IPv6
+/// address counts by its first 64 bits, since one client has all of the rest.
+std::string clientOf(const http::Request& request, bool trustProxy);
+
+/// A token bucket for each client. Remembers the 10,000 that came last. Threads may share it.
+class RateLimiter {
+  public:
+    using Clock = std::chrono::steady_clock;
+    explicit RateLimiter(RateLimit limit);
+
+    /// Takes one request of the client's share. Throws Busy limit.rate with the seconds after
+    /// which the next one is taken.
+    void admit(const std::string& client, Clock::time_point now = Clock::now());
+    bool isOn() const { return limit_.perSecond > 0; }
+
+  private:
+    struct Bucket {
+        double tokens;
+        Clock::time_point at;
+    };
+    RateLimit limit_;
+    std::mutex mutex_;
+    render::LruCache<std::string, Bucket> buckets_;
+};
+
+}  // namespace farol::server

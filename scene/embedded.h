@@ -6,7 +6,7 @@ namespace farol {
 
 /// A file of the project that is linked into the program (cmake/embed.cmake).
 struct EmbeddedFile {
-    std::string_view name;  ///< base name
+    std::string_view name;  ///< base name, or path in the folder that was embedded
     std::string_view bytes;
 };
 

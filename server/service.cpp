@@ -1,17 +1,10 @@
 #include "server/service.h"
 
 #include <nlohmann/json.hpp>
-#include <span>
 
-#include "scene/embedded.h"
-#include "server/etag.h"
 #include "server/problem.h"
 #include "server/store/memory_store.h"
 #include "server/version.h"
-
-namespace farol {
-std::span<const EmbeddedFile> webFiles();
-}
 
 namespace farol::server {
 
@@ -19,20 +12,10 @@ using nlohmann::json;
 
 namespace {
 
-// The page loads its own script, style and pictures and talks to its own server: nothing else.
-constexpr const char* kPagePolicy =
-    "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; "
-    "connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 // A scene's source is XML from strangers: a browser that opens it must not run what is in it.
 constexpr const char* kDataPolicy = "default-src 'none'; frame-ancestors 'none'; sandbox";
 
 constexpr std::uint64_t kMemoryStoreBytes = std::uint64_t{128} << 20U;
-
-std::string_view embedded(const std::string& name) {
-    for (const EmbeddedFile& file : webFiles())
-        if (file.name == name) return file.bytes;
-    return {};
-}
 
 http::Response jsonResponse(const json& value) {
     http::Response response;
@@ -63,18 +46,18 @@ std::vector<Route> Service::routes() {
     const auto call = [this](Member member) {
         return [this, member](const Call& one) { return (this->*member)(one); };
     };
-    const auto file = [this](const char* name, const char* type) {
-        return [this, name, type](const Call& one) { return page(one, name, type); };
+    const auto named = [this](const char* name) {
+        return [this, name](const Call& one) { return file(one, name, false); };
     };
     const auto image = [this](http::Fields preset) {
         return
             [this, preset = std::move(preset)](const Call& one) { return getImage(one, preset); };
     };
     return {
-        {"GET", "/", file("index.html", "text/html; charset=utf-8")},
-        {"GET", "/app.js", file("app.js", "text/javascript; charset=utf-8")},
-        {"GET", "/style.css", file("style.css", "text/css; charset=utf-8")},
-        {"GET", "/openapi.yaml", file("openapi.yaml", "application/yaml")},
+        {"GET", "/", call(&Service::getPage)},
+        {"GET", "/plain", named("plain.html")},
+        {"GET", "/assets/{file}", call(&Service::getAsset)},
+        {"GET", "/openapi.yaml", named("openapi.yaml")},
         {"GET", "/livez", call(&Service::livez)},
         {"GET", "/readyz", call(&Service::readyz)},
         {"GET", "/version", call(&Service::version)},
@@ -163,22 +146,6 @@ void Service::finished(const http::Request& request, const http::Response& respo
     metrics_.request(route.empty() ? "none" : route, response.status, milliseconds);
     logger_.request(request, response, milliseconds, sent);
     sweep();
-}
-
-http::Response Service::page(const Call& call, const std::string& file, const std::string& type) {
-    noParameters(call);
-    const std::string_view bytes = embedded(file);
-    http::Response response;
-    const std::string tag = entityTag({bytes});
-    response.set("ETag", tag);
-    response.set("Content-Security-Policy", kPagePolicy);
-    if (matchesTag(call.request.header("if-none-match"), tag)) {
-        response.status = 304;
-        return response;
-    }
-    response.contentType = type;
-    response.body = std::string(bytes);
-    return response;
 }
 
 http::Response Service::livez(const Call& call) {

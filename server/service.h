@@ -54,7 +54,9 @@ class Service final : public http::Handler {
     };
 
     std::vector<Route> routes();
-    http::Response page(const Call& call, const std::string& file, const std::string& type);
+    http::Response file(const Call& call, const std::string& name, bool immutable);
+    http::Response getPage(const Call& call);
+    http::Response getAsset(const Call& call);
     http::Response livez(const Call& call);
     http::Response readyz(const Call& call);
     http::Response version(const Call& call);

@@ -44,8 +44,10 @@ TEST_CASE("every request has its status and its code") {
         multipart({{"scene", "a.xml", "<world/>", ""}, {"scene", "b.xml", "<world/>", ""}});
     const std::vector<Row> table = {
         {"page", {"GET", "/", {}, ""}, 200, "", ""},
-        {"script", {"GET", "/app.js", {}, ""}, 200, "", ""},
-        {"style", {"GET", "/style.css", {}, ""}, 200, "", ""},
+        {"plain page", {"GET", "/plain", {}, ""}, 200, "", ""},
+        {"script", {"GET", "/assets/plain.js", {}, ""}, 200, "", ""},
+        {"style", {"GET", "/assets/plain.css", {}, ""}, 200, "", ""},
+        {"no such asset", {"GET", "/assets/app.js", {}, ""}, 404, "http.not-found", ""},
         {"openapi", {"GET", "/openapi.yaml", {}, ""}, 200, "", ""},
         {"livez", {"GET", "/livez", {}, ""}, 200, "", ""},
         {"readyz", {"GET", "/readyz", {}, ""}, 200, "", ""},

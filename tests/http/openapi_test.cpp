@@ -142,8 +142,8 @@ TEST_CASE("every route answers with statuses that the document lists") {
     int answered = 0;
     for (const auto& [key, operation] : document.operations) {
         std::string target = key.first;
-        for (const auto& [name, value] :
-             std::map<std::string, std::string>{{"{id}", "box"}, {"{shape}", "cone"}})
+        for (const auto& [name, value] : std::map<std::string, std::string>{
+                 {"{id}", "box"}, {"{shape}", "cone"}, {"{file}", "plain.js"}})
             if (const std::size_t at = target.find(name); at != std::string::npos)
                 target.replace(at, name.size(), value);
         if (key.second == "delete") continue;  // store_test.cpp has its table

@@ -1,0 +1,120 @@
+// The service as the page uses it (api/openapi.yaml).
+import type { LookAt, Orbit } from './maths/camera.ts';
+
+export type Severity = 'info' | 'warning' | 'error';
+
+export interface Finding {
+  code: string;
+  severity: Severity;
+  message: string;
+  file?: string;
+  line?: number;
+  column?: number;
+  field?: string;
+}
+
+export interface SceneFacts {
+  id: string;
+  valid: boolean;
+  title: string;
+  description: string;
+  width?: number;
+  height?: number;
+  animated?: boolean;
+  playFrom?: number;
+  loopSeconds?: number;
+  camera?: LookAt;
+  counts?: { models: number; lights: number; textures: number; triangles: number; textureBytes: number };
+  diagnostics: Finding[];
+  links: { self: string; source: string; image: string; thumbnail: string };
+  upload?: boolean;
+  expires?: string | null;
+}
+
+export interface ScenePage {
+  scenes: SceneFacts[];
+  page: number;
+  pages: number;
+  total: number;
+}
+
+export type Options = Record<string, string | number>;
+
+/** An answer that is not a success: its findings are sentences with a place. */
+export class Problem extends Error {
+  constructor(
+    readonly status: number,
+    readonly code: string,
+    readonly findings: Finding[],
+    readonly retryAfterS: number | null,
+  ) {
+    super(findings[0]?.message ?? `The server answered ${status}.`);
+  }
+  get superseded(): boolean {
+    return this.code === 'busy.superseded';
+  }
+  get busy(): boolean {
+    return this.status === 503 || this.status === 429;
+  }
+}
+
+async function problemOf(response: Response): Promise<Problem> {
+  const retry = Number(response.headers.get('Retry-After') ?? Number.NaN);
+  const retryAfterS = Number.isFinite(retry) ? retry : null;
+  try {
+    const body = (await response.json()) as { code?: string; detail?: string; errors?: Finding[] };
+    const detail = body.detail ?? `The server answered ${response.status}.`;
+    const findings = body.errors?.length
+      ? body.errors
+      : [{ code: body.code ?? '', severity: 'error' as const, message: detail }];
+    return new Problem(response.status, body.code ?? '', findings, retryAfterS);
+  } catch {
+    const message = `The server answered ${response.status} ${response.statusText}`.trim();
+    return new Problem(response.status, '', [{ code: '', severity: 'error', message }], retryAfterS);
+  }
+}
+
+export async function request(url: string, init?: RequestInit): Promise<Response> {
+  const response = await fetch(url, init);
+  if (!response.ok) throw await problemOf(response);
+  return response;
+}
+
+const json = async <T>(url: string, init?: RequestInit): Promise<T> => (await (await request(url, init)).json()) as T;
+
+export const scenePath = (id: string): string => `/v1/scenes/${id.split('/').map(encodeURIComponent).join('/')}`;
+
+export const query = (options: Options): string =>
+  new URLSearchParams(Object.entries(options).map(([key, value]) => [key, String(value)])).toString();
+
+export const listScenes = (page: number, words: string): Promise<ScenePage> =>
+  json(`/v1/scenes?${query({ page, ...(words ? { q: words } : {}) })}`);
+
+export const getScene = (id: string): Promise<SceneFacts> => json(scenePath(id));
+
+export const getSource = async (id: string): Promise<string> => (await request(`${scenePath(id)}/source`)).text();
+
+export const validate = (body: BodyInit, parameters = ''): Promise<SceneFacts> =>
+  json(`/v1/validate${parameters}`, { method: 'POST', body });
+
+/** A finding as a sentence with its place. */
+export function sentence(finding: Finding): string {
+  const column = finding.column ? `, column ${finding.column}` : '';
+  const where = finding.line ? `Line ${finding.line}${column}: ` : '';
+  const text = finding.message.replace(/[.\s]*$/, '.');
+  return where + text.charAt(0).toUpperCase() + text.slice(1);
+}
+
+/** What went wrong, as findings, whatever was thrown. */
+export function findingsOf(fault: unknown): Finding[] {
+  if (fault instanceof Problem) return fault.findings;
+  const message = fault instanceof TypeError ? 'The server does not answer' : String((fault as Error)?.message ?? fault);
+  return [{ code: '', severity: 'error', message }];
+}
+
+export const orbitOptions = (orbit: Orbit): Options => ({
+  azimuth: Number(orbit.azimuth.toFixed(4)),
+  elevation: Number(orbit.elevation.toFixed(4)),
+  distance: Number(orbit.distance.toPrecision(8)),
+  target: orbit.target.map((x) => Number(x.toPrecision(8))).join(','),
+});

@@ -1,0 +1,144 @@
+// Which picture is asked for when, and which is shown: the newest wins, always.
+import { Adaptation, type Pace } from './adapt.ts';
+import { splitLatency, type Latency } from './timing.ts';
+
+export interface Ask {
+  seq: number;
+  pace: Pace | null; // null: the full picture
+}
+
+/** What came back. `undefined` is a frame the server dropped for a newer one. */
+export interface Answer<Picture> {
+  picture: Picture;
+  serverTiming: string | null;
+}
+
+export interface Shown<Picture> {
+  picture: Picture;
+  seq: number;
+  moving: boolean;
+  latency: Latency;
+}
+
+export interface LoopHooks<Picture> {
+  /** Asks the server; throws what `failed` understands, AbortError when the signal says so. */
+  ask(ask: Ask, signal: AbortSignal): Promise<Answer<Picture> | undefined>;
+  show(shown: Shown<Picture>): void;
+  /** A newer frame was shown before this one arrived. */
+  discard(picture: Picture): void;
+  /** Returns after how many ms to ask again, or null to leave it. */
+  failed(fault: unknown): number | null;
+  now(): number;
+}
+
+/** After the last input, until the full picture is asked for. */
+export const restDelayMs = 140;
+
+export class FrameLoop<Picture> {
+  private readonly adaptation = new Adaptation();
+  private seq = 0;
+  private shownSeq = 0;
+  private generation = 0; // of the scene: what an older one answers is void
+  private moving = 0; // requests under way
+  private rest: AbortController | null = null;
+  private wantsFrame = false;
+  private wantsRest = false;
+  private restTimer: ReturnType<typeof setTimeout> | undefined;
+  private retryTimer: ReturnType<typeof setTimeout> | undefined;
+  private held = false; // while something plays there is no rest
+
+  constructor(private readonly hooks: LoopHooks<Picture>) {}
+
+  get pace(): Pace {
+    return this.adaptation.pace;
+  }
+
+  get idle(): boolean {
+    return this.moving === 0 && !this.rest && !this.wantsFrame && !this.wantsRest;
+  }
+
+  /** Something moved: a small frame soon, the full picture when it has come to rest. */
+  move(): void {
+    this.wantsFrame = true;
+    this.wantsRest = false;
+    this.rest?.abort();
+    this.rest = null;
+    clearTimeout(this.restTimer);
+    if (!this.held) this.restTimer = setTimeout(() => this.settle(), restDelayMs);
+    this.pump();
+  }
+
+  /** The full picture, now. */
+  settle(): void {
+    clearTimeout(this.restTimer);
+    this.wantsFrame = false;
+    this.wantsRest = true;
+    this.rest?.abort();
+    this.rest = null;
+    this.pump();
+  }
+
+  /** While held (playing), movements are not followed by a full picture. */
+  hold(held: boolean): void {
+    this.held = held;
+    if (held) clearTimeout(this.restTimer);
+  }
+
+  /** Another scene: nothing that is under way may be shown. */
+  restart(): void {
+    this.stop();
+    this.generation += 1;
+    this.shownSeq = this.seq;
+  }
+
+  stop(): void {
+    clearTimeout(this.restTimer);
+    clearTimeout(this.retryTimer);
+    this.wantsFrame = this.wantsRest = false;
+    this.rest?.abort();
+    this.rest = null;
+    this.generation += 1;
+    this.moving = 0;
+  }
+
+  private pump(): void {
+    if (this.wantsRest) {
+      this.wantsRest = false;
+      this.rest = new AbortController();
+      void this.request(null, this.rest);
+    } else if (this.wantsFrame && this.moving < this.adaptation.pace.inFlight) {
+      this.wantsFrame = false;
+      void this.request(this.adaptation.pace, new AbortController());
+    }
+  }
+
+  private async request(pace: Pace | null, controller: AbortController): Promise<void> {
+    const seq = ++this.seq, generation = this.generation;
+    const start = this.hooks.now();
+    if (pace) this.moving += 1;
+    try {
+      const answer = await this.hooks.ask({ seq, pace }, controller.signal);
+      if (answer) {
+        if (generation !== this.generation || seq <= this.shownSeq) this.hooks.discard(answer.picture);
+        else {
+          this.shownSeq = seq;
+          const latency = splitLatency(this.hooks.now() - start, answer.serverTiming);
+          if (pace) this.adaptation.add(latency);
+          this.hooks.show({ picture: answer.picture, seq, moving: pace !== null, latency });
+        }
+      }
+    } catch (fault) {
+      if (generation === this.generation && !controller.signal.aborted) {
+        const wait = this.hooks.failed(fault);
+        clearTimeout(this.retryTimer);
+        if (wait !== null) this.retryTimer = setTimeout(() => this.settle(), wait);
+      }
+    } finally {
+      if (generation === this.generation) {
+        if (pace) this.moving -= 1;
+        if (this.rest === controller) this.rest = null;
+        this.pump();
+      }
+    }
+  }
+}

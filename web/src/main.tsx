@@ -1,0 +1,8 @@
+import { render } from 'preact';
+import { App } from './views/app.tsx';
+import './style/base.css';
+import './style/gallery.css';
+import './style/viewer.css';
+import './style/panel.css';
+
+render(<App />, document.getElementById('app') as HTMLElement);

@@ -1,0 +1,92 @@
+// The address after the #: what is on show, so that it can be shared.
+//   #/                 the gallery          #/scene/ID?az=..&el=..   a scene and how it is seen
+//   #/new              a scene of one's own #/grade                  marks a class
+import { signal } from '@preact/signals';
+import { formatVec, parseVec } from './maths/vec.ts';
+import type { Orbit, Walk } from './maths/camera.ts';
+
+export type Place =
+  | { page: 'gallery' }
+  | { page: 'grade' }
+  | { page: 'new' }
+  | { page: 'scene'; id: string; view: URLSearchParams };
+
+/** What a link says of the view: all of it may be missing. */
+export interface ViewLink {
+  orbit: Orbit | null;
+  walk: Walk | null;
+  time: number | null;
+  options: Record<string, string>;
+}
+
+/** Picture options that travel in a link. */
+export const linkedOptions = [
+  'shading', 'aa', 'filter', 'error', 'axes', 'curves', 'focus', 'debug', 'background', 'layer', 'viewer', 'specular',
+] as const;
+
+export function parsePlace(hash: string): Place {
+  const [path = '', text = ''] = hash.replace(/^#/, '').split(/\?(.*)/s);
+  if (path === '/grade') return { page: 'grade' };
+  if (path === '/new') return { page: 'new' };
+  const scene = /^\/scene\/(.+)$/.exec(path);
+  if (!scene) return { page: 'gallery' };
+  try {
+    return { page: 'scene', id: decodeURIComponent(scene[1] as string), view: new URLSearchParams(text) };
+  } catch {
+    return { page: 'gallery' }; // a broken %-escape names nothing
+  }
+}
+
+const numberOf = (view: URLSearchParams, name: string): number | null => {
+  const text = view.get(name);
+  const value = Number(text);
+  return text === null || text.trim() === '' || !Number.isFinite(value) ? null : value;
+};
+
+export function parseView(view: URLSearchParams): ViewLink {
+  const azimuth = numberOf(view, 'az'), elevation = numberOf(view, 'el'), distance = numberOf(view, 'd');
+  const target = parseVec(view.get('at')), eye = parseVec(view.get('eye'));
+  const yaw = numberOf(view, 'yaw'), pitch = numberOf(view, 'pitch');
+  const options: Record<string, string> = {};
+  for (const name of linkedOptions) {
+    const value = view.get(name);
+    if (value !== null) options[name] = value;
+  }
+  return {
+    orbit: azimuth !== null && elevation !== null && distance !== null && distance > 0 && target
+      ? { azimuth, elevation, distance, target } : null,
+    walk: eye && yaw !== null && pitch !== null ? { eye, yaw, pitch } : null,
+    time: numberOf(view, 't'),
+    options,
+  };
+}
+
+export function formatView(view: ViewLink): string {
+  const out = new URLSearchParams();
+  if (view.walk) {
+    out.set('eye', formatVec(view.walk.eye));
+    out.set('yaw', String(Number(view.walk.yaw.toFixed(2))));
+    out.set('pitch', String(Number(view.walk.pitch.toFixed(2))));
+  } else if (view.orbit) {
+    out.set('az', String(Number(view.orbit.azimuth.toFixed(2))));
+    out.set('el', String(Number(view.orbit.elevation.toFixed(2))));
+    out.set('d', String(Number(view.orbit.distance.toPrecision(6))));
+    out.set('at', formatVec(view.orbit.target));
+  }
+  if (view.time) out.set('t', String(Number(view.time.toFixed(2))));
+  for (const [name, value] of Object.entries(view.options)) out.set(name, value);
+  return out.toString().replaceAll('%2C', ',');
+}
+
+export const scenePlace = (id: string, view = ''): string =>
+  `#/scene/${id.split('/').map(encodeURIComponent).join('/')}${view ? `?${view}` : ''}`;
+
+export const place = signal<Place>(parsePlace(location.hash));
+addEventListener('hashchange', () => {
+  place.value = parsePlace(location.hash);
+});
+
+/** Changes the address without a new entry in the history, and without opening anything. */
+export function replaceAddress(hash: string): void {
+  if (location.hash !== hash) history.replaceState(null, '', hash);
+}

@@ -1,0 +1,86 @@
+// Files that make a scene together: which is the scene, and under which paths the others go.
+export interface NamedFile {
+  path: string; // with forward slashes
+  file: File;
+}
+
+export interface Bundle {
+  name: string;
+  body(): Promise<{ body: BodyInit; headers?: Record<string, string> }>;
+}
+
+const maxFiles = 256; // the service's bound on parts
+const maxBytes = 16 * 1024 * 1024;
+
+const meshEndings = /\.(3d|obj|ply|tri|patch)$/i;
+const archives: [RegExp, string][] = [
+  [/\.zip$/i, 'application/zip'],
+  [/\.(tar|tar\.gz|tgz|tar\.xz|tar\.bz2)$/i, 'application/x-tar'],
+];
+// What operating systems and tools leave behind in folders.
+const litter = /(^|\/)(\.[^/]*|__MACOSX|Thumbs\.db|desktop\.ini|node_modules)(\/|$)/i;
+
+const depth = (path: string): number => path.split('/').length;
+
+/** Without the folders that all paths share. */
+export function stripCommonFolder(paths: readonly string[]): string[] {
+  let out = [...paths];
+  for (;;) {
+    const first = out[0]?.split('/')[0];
+    if (!first || !out.every((path) => path.startsWith(`${first}/`))) return out;
+    out = out.map((path) => path.slice(first.length + 1));
+  }
+}
+
+/** The scene among XML files: scene.xml or world.xml first, then the outermost, then by name. */
+export function mainScene(paths: readonly string[]): string | null {
+  const rank = (path: string): number => (/(^|\/)(scene|world|main|index)\.xml$/i.test(path) ? 0 : 1);
+  const found = paths.filter((path) => /\.xml$/i.test(path));
+  found.sort((a, b) => depth(a) - depth(b) || rank(a) - rank(b) || a.localeCompare(b));
+  return found[0] ?? null;
+}
+
+const escapeXml = (text: string): string => text.replaceAll('&', '&amp;').replaceAll('<', '&lt;').replaceAll('"', '&quot;');
+
+/** A scene that shows one mesh, lit from the camera. */
+export const meshScene = (path: string): string => `<world>
+    <title>${escapeXml(path.replace(/^.*\//, ''))}</title>
+    <lights>
+        <light type="directional" space="camera" alpha="25" beta="35"/>
+    </lights>
+    <group>
+        <models>
+            <model file="${escapeXml(path)}"/>
+        </models>
+    </group>
+</world>
+`;
+
+export function bundleOf(files: readonly NamedFile[]): Bundle | { message: string } {
+  const kept = files.filter(({ path }) => !litter.test(path));
+  const only = kept.length === 1 ? kept[0] : undefined;
+  const archive = only && archives.find(([ending]) => ending.test(only.path));
+  const bytes = kept.reduce((sum, { file }) => sum + file.size, 0);
+  if (bytes > maxBytes) return { message: `These files are ${(bytes / 1048576).toFixed(1)} MiB; the server takes 16 MiB` };
+  if (only && archive)
+    return { name: only.path, body: async () => ({ body: only.file, headers: { 'Content-Type': archive[1] } }) };
+  if (kept.length > maxFiles) return { message: `These are ${kept.length} files; the server takes ${maxFiles} at once` };
+  const paths = stripCommonFolder(kept.map(({ path }) => path));
+  const parts = kept.map(({ file }, i) => ({ path: paths[i] as string, file: file as Blob }));
+  let main = mainScene(paths);
+  if (!main) {
+    const mesh = paths.find((path) => meshEndings.test(path));
+    if (!mesh) return { message: 'There is no scene (.xml), mesh (.obj, .ply, .3d, .tri, .patch) or archive (.zip, .tar) among these files' };
+    main = 'scene.xml';
+    parts.push({ path: main, file: new Blob([meshScene(mesh)], { type: 'application/xml' }) });
+  }
+  const scene = main;
+  return {
+    name: kept[0]?.path.split('/')[0] ?? scene,
+    body: async () => {
+      const form = new FormData();
+      for (const { path, file } of parts) form.append(path === scene ? 'scene' : 'file', file, path);
+      return { body: form };
+    },
+  };
+}

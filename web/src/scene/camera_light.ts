@@ -1,0 +1,2 @@
+import type { Viewer } from './viewer.ts';
+export async function turnLight(_viewer: Viewer, _alpha: number, _beta: number): Promise<void> {}

@@ -1,0 +1,353 @@
+// The state of one scene on show, and what changes it. Views read the signals; every change of
+// the view asks the frame loop for pictures.
+import { batch, computed, signal } from '@preact/signals';
+import { findingsOf, getScene, getSource, orbitOptions, Problem, type Finding, type Options, type SceneFacts } from '../api.ts';
+import { FrameLoop, type Shown } from '../frames/loop.ts';
+import { FrameRate, type Latency } from '../frames/timing.ts';
+import { fitFov, orbitOf, walkOf, walkTarget, type LookAt, type Orbit, type Walk } from '../maths/camera.ts';
+import { clamp, formatVec } from '../maths/vec.ts';
+import { formatView, replaceAddress, scenePlace, type ViewLink } from '../router.ts';
+import { SceneClock } from './clock.ts';
+import { hashText, loadDraft, saveDraft } from './drafts.ts';
+import { decodeFrame, fetchPicture, turnOf, type Frame, type Origin } from './frame.ts';
+
+export type Quality = 'fast' | 'standard' | 'reference';
+
+const qualityOptions: Record<Quality, Options> = {
+  fast: { aa: 1, error: 1, filter: 'linear' },
+  standard: {},
+  reference: { aa: 16, error: 0.05, filter: 'anisotropic' },
+};
+
+export interface Hud {
+  width: number;
+  height: number;
+  bytes: number;
+  moving: boolean;
+  fps: number;
+  latency: Latency;
+  stats: Frame['stats'];
+}
+
+export type Canvas = { draw(bitmap: ImageBitmap): void; size(): { width: number; height: number; ratio: number } };
+
+export class Viewer {
+  readonly facts = signal<SceneFacts | null>(null);
+  readonly original = signal<string | null>(null);
+  readonly text = signal<string | null>(null); // of the editor; null: not loaded
+  readonly orbit = signal<Orbit | null>(null); // null: the scene's own camera
+  readonly walk = signal<Walk | null>(null);
+  readonly options = signal<Record<string, string>>({});
+  readonly quality = signal<Quality>('standard');
+  readonly lightMode = signal(false);
+  readonly turning = signal(false);
+  readonly findings = signal<Finding[]>([]);
+  readonly notice = signal('');
+  readonly hud = signal<Hud | null>(null);
+  readonly still = signal<Blob | null>(null); // the last full picture
+  readonly pictured = signal(false);
+  readonly reveal = signal<{ line: number; column: number } | null>(null); // a place the editor goes to
+  readonly edited = computed(() => this.text.value !== null && this.text.value !== this.original.value);
+  readonly clock: SceneClock;
+  home: LookAt | null = null;
+  canvas: Canvas | null = null;
+
+  private readonly rate = new FrameRate();
+  private readonly loop: FrameLoop<Frame>;
+  private linkTimer: ReturnType<typeof setTimeout> | undefined;
+  private draftTimer: ReturnType<typeof setTimeout> | undefined;
+  private typeTimer: ReturnType<typeof setTimeout> | undefined;
+  private latest: Frame | null = null;
+
+  constructor(readonly id: string | null) {
+    this.clock = new SceneClock(() => this.moved(), () => {
+      this.loop.hold(this.turning.value);
+      this.loop.settle();
+      this.keepLink();
+    });
+    this.loop = new FrameLoop<Frame>({
+      ask: async ({ seq, pace }, signal) => {
+        const options = this.pictureOptions();
+        if (pace) Object.assign(options, { scale: pace.scale, aa: 1, error: 1, format: pace.format, quality: pace.quality });
+        else options['format'] = 'png';
+        const response = await fetchPicture(this.origin(), { ...options, ...turnOf(seq) }, signal);
+        if (!response) return undefined;
+        return { picture: await decodeFrame(response, options), serverTiming: response.headers.get('Server-Timing') };
+      },
+      show: (shown) => this.show(shown),
+      discard: (frame) => frame.bitmap.close(),
+      failed: (fault) => this.failed(fault),
+      now: () => performance.now(),
+    });
+  }
+
+  /** Reads the facts, restores edits and view, and asks for the first picture. */
+  async open(link: ViewLink, template: string): Promise<void> {
+    const draft = loadDraft(this.id);
+    batch(() => {
+      this.orbit.value = link.orbit;
+      this.walk.value = link.walk;
+      this.options.value = link.options;
+      this.clock.seek(link.time ?? 0);
+    });
+    if (this.id === null) {
+      this.original.value = template;
+      this.text.value = draft?.text ?? template;
+    } else {
+      try {
+        const facts = await getScene(this.id);
+        this.facts.value = facts;
+        this.home ??= facts.camera ?? null;
+        this.clock.range(facts.animated ?? false, facts.playFrom ?? 0, facts.loopSeconds ?? 60);
+        if (!facts.valid) this.findings.value = facts.diagnostics;
+        if (draft || !facts.valid) {
+          await this.loadText();
+          if (draft) this.restore(draft.text, draft.base);
+        }
+      } catch (fault) {
+        this.findings.value = findingsOf(fault);
+        this.notice.value = fault instanceof Problem && fault.status === 404 ? `There is no scene “${this.id}” here.` : '';
+        return;
+      }
+    }
+    this.loop.settle();
+  }
+
+  close(): void {
+    this.clock.stop();
+    this.loop.stop();
+    clearTimeout(this.linkTimer);
+    clearTimeout(this.typeTimer);
+    this.flushDraft();
+  }
+
+  async loadText(): Promise<void> {
+    if (this.id === null || this.original.value !== null) return;
+    const source = await getSource(this.id);
+    batch(() => {
+      this.original.value = source;
+      this.text.value ??= source;
+    });
+  }
+
+  private restore(text: string, base: string): void {
+    this.text.value = text;
+    if (this.edited.value)
+      this.notice.value = base === hashText(this.original.value ?? '')
+        ? 'Your edits of this scene were restored.'
+        : 'Your edits were restored; the scene on the server has changed since.';
+  }
+
+  /**
+   * The document was changed: by `typing` (drawn when it pauses), by `dragging` a slider (drawn as a
+   * movement) or by one step that is `done`.
+   */
+  edit(text: string, how: 'typing' | 'dragging' | 'done'): void {
+    if (text === this.text.value) return;
+    this.text.value = text;
+    clearTimeout(this.draftTimer);
+    clearTimeout(this.typeTimer);
+    this.draftTimer = setTimeout(() => this.flushDraft(), 200);
+    if (how === 'dragging') this.loop.move();
+    else this.typeTimer = setTimeout(() => this.loop.settle(), how === 'typing' ? 220 : 0);
+  }
+
+  discardEdits(): void {
+    this.text.value = this.original.value;
+    this.flushDraft();
+    this.notice.value = '';
+    this.loop.settle();
+  }
+
+  flushDraft(): void {
+    clearTimeout(this.draftTimer);
+    const text = this.text.value;
+    if (text === null) return;
+    const kept = saveDraft(this.id, this.edited.value ? { text, base: hashText(this.original.value ?? '') } : null);
+    if (!kept) this.notice.value = 'This browser keeps no edits: copy the XML before you leave.';
+  }
+
+  /** The edits live on elsewhere. */
+  forgetDraft(): void {
+    clearTimeout(this.draftTimer);
+    this.text.value = this.original.value;
+    this.flushDraft();
+  }
+
+  report(fault: unknown): void {
+    this.findings.value = findingsOf(fault);
+  }
+
+  /** Whether a finding is about the document, not about a file that it includes. */
+  isOfDocument(finding: Finding): boolean {
+    const name = `${(this.id ?? 'scene').replace(/^.*\//, '')}.xml`;
+    return !finding.file || /(^|\/)scene\.xml$/.test(finding.file) || finding.file.endsWith(name);
+  }
+
+  origin(): Origin {
+    return { id: this.id, text: this.id === null || this.edited.value ? this.text.value : null };
+  }
+
+  /** What the full picture is asked with: all but format. */
+  pictureOptions(): Options {
+    const out: Options = { ...this.sizeOptions(), ...qualityOptions[this.quality.value], ...this.options.value };
+    if (this.clock.time.value > 0) out['time'] = Number(this.clock.time.value.toFixed(3));
+    const { walk, orbit } = this;
+    if (walk.value) Object.assign(out, { eye: formatVec(walk.value.eye), target: formatVec(walkTarget(walk.value), 9) });
+    else if (orbit.value) {
+      Object.assign(out, orbitOptions(orbit.value));
+      if (this.home && this.home.up[1] < 0.999) out['up'] = formatVec(this.home.up);
+    }
+    return out;
+  }
+
+  private sizeOptions(): Options {
+    const { width, height, ratio } = this.canvas?.size() ?? { width: 512, height: 512, ratio: 1 };
+    const factor = Math.min(ratio, 2, 2048 / Math.max(width, height, 1));
+    const out: Options = {
+      width: clamp(Math.round(width * factor), 16, 4096), height: clamp(Math.round(height * factor), 16, 4096),
+    };
+    const facts = this.facts.value;
+    if (this.home && facts?.width && facts.height) {
+      const fov = fitFov(this.home.fov, facts.width / facts.height, width / height);
+      if (fov > this.home.fov + 1e-6) out['fov'] = Number(fov.toFixed(4));
+    }
+    return out;
+  }
+
+  get fov(): number {
+    return Number(this.sizeOptions()['fov'] ?? this.home?.fov ?? 60);
+  }
+
+  private show({ picture, moving, latency }: Shown<Frame>): void {
+    this.canvas?.draw(picture.bitmap);
+    const now = performance.now();
+    if (moving) this.rate.add(now);
+    else this.rate.clear();
+    batch(() => {
+      this.pictured.value = true;
+      this.hud.value = {
+        width: picture.bitmap.width, height: picture.bitmap.height, bytes: picture.blob.size, moving,
+        fps: this.rate.rate(now), latency, stats: picture.stats,
+      };
+      if (!moving) this.still.value = picture.blob;
+      this.setFindings(picture.findings);
+    });
+    if (picture.camera && !this.home) this.home = picture.camera;
+    this.latest?.bitmap.close();
+    this.latest = picture;
+  }
+
+  private failed(fault: unknown): number | null {
+    if (fault instanceof Problem && fault.busy) {
+      const wait = Math.max(0.3, fault.retryAfterS ?? 1);
+      this.notice.value = `The server is busy; trying again in ${Math.ceil(wait)} s.`;
+      return wait * 1000;
+    }
+    this.clock.stop();
+    this.setFindings(findingsOf(fault));
+    return null;
+  }
+
+  private setFindings(found: Finding[]): void {
+    if (this.notice.value.startsWith('The server is busy')) this.notice.value = '';
+    if (JSON.stringify(found) !== JSON.stringify(this.findings.value)) this.findings.value = found;
+  }
+
+  /** The picture before the next one, for a stage of another size. */
+  redraw(): void {
+    if (this.latest) this.canvas?.draw(this.latest.bitmap);
+    this.moved();
+  }
+
+  moved(): void {
+    this.loop.hold(this.clock.playing.value || this.turning.value);
+    this.loop.move();
+    this.keepLink();
+  }
+
+  settle(): void {
+    this.loop.settle();
+    this.keepLink();
+  }
+
+  changeOrbit(change: (orbit: Orbit) => Orbit): void {
+    const from = this.orbit.value ?? (this.home && orbitOf(this.home));
+    if (!from) return;
+    this.orbit.value = change(from);
+    this.moved();
+  }
+
+  changeWalk(change: (walk: Walk) => Walk): void {
+    if (!this.walk.value) return;
+    this.walk.value = change(this.walk.value);
+    this.moved();
+  }
+
+  /** Walking begins where the camera is, and orbiting again where the walk ended up looking. */
+  toggleWalk(): void {
+    const orbit = this.orbit.value ?? (this.home && orbitOf(this.home));
+    if (this.walk.value) {
+      const { eye } = this.walk.value, distance = orbit?.distance ?? 5;
+      const ahead = walkTarget(this.walk.value);
+      const target = eye.map((x, i) => x + ((ahead[i] as number) - x) * distance) as unknown as Orbit['target'];
+      this.orbit.value = orbitOf({ eye, target });
+      this.walk.value = null;
+    } else if (this.home) {
+      this.walk.value = walkOf(this.currentCamera(this.home));
+    }
+    this.settle();
+  }
+
+  currentCamera(home: LookAt): LookAt {
+    return this.latest?.camera && !this.latest.options['scale'] ? this.latest.camera : (this.latest?.camera ?? home);
+  }
+
+  get stride(): number {
+    return (this.home ? orbitOf(this.home).distance : 5) / 25;
+  }
+
+  reset(): void {
+    this.orbit.value = null;
+    this.walk.value = null;
+    this.settle();
+  }
+
+  setOption(name: string, value: string | null): void {
+    const next = { ...this.options.value };
+    if (value === null || value === '') delete next[name];
+    else next[name] = value;
+    this.options.value = next;
+    this.settle();
+  }
+
+  setQuality(quality: Quality): void {
+    this.quality.value = quality;
+    this.settle();
+  }
+
+  toggleTurntable(): void {
+    this.turning.value = !this.turning.value;
+    this.loop.hold(this.turning.value || this.clock.playing.value);
+    if (!this.turning.value) return this.settle();
+    let last = performance.now();
+    const turn = (now: number): void => {
+      if (!this.turning.value) return;
+      const degrees = (Math.min(100, now - last) * 360) / 12000;
+      last = now;
+      this.changeOrbit((orbit) => ({ ...orbit, azimuth: ((orbit.azimuth + degrees + 540) % 360) - 180 }));
+      requestAnimationFrame(turn);
+    };
+    requestAnimationFrame(turn);
+  }
+
+  link(): string {
+    const view = { orbit: this.orbit.value, walk: this.walk.value, time: this.clock.time.value, options: this.options.value };
+    return this.id === null ? '#/new' : scenePlace(this.id, formatView(view));
+  }
+
+  private keepLink(): void {
+    clearTimeout(this.linkTimer);
+    this.linkTimer = setTimeout(() => replaceAddress(this.link()), 200);
+  }
+}

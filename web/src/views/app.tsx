@@ -1,0 +1,94 @@
+// The frame of all pages: head, the page itself, and what may lie over it.
+import { signal } from '@preact/signals';
+import { useEffect } from 'preact/hooks';
+import { place } from '../router.ts';
+import { dark, toggleTheme } from '../theme.ts';
+import { filesOf, openFiles, uploading, uploadProblem } from '../upload.ts';
+import { Gallery } from './gallery.tsx';
+import { Mark } from './icons.tsx';
+import { Findings, Toast, Tool } from './ui.tsx';
+import { ViewerPage } from './viewer_page.tsx';
+
+const dropping = signal(false);
+
+function useDrops(): void {
+  useEffect(() => {
+    const abort = new AbortController();
+    const on = <K extends keyof WindowEventMap>(name: K, handle: (event: WindowEventMap[K]) => void): void =>
+      window.addEventListener(name, handle, { signal: abort.signal });
+    const ofFiles = (event: DragEvent): boolean =>
+      place.value.page !== 'grade' && [...(event.dataTransfer?.types ?? [])].includes('Files');
+    on('dragover', (event) => {
+      if (!ofFiles(event)) return;
+      event.preventDefault();
+      dropping.value = true;
+    });
+    on('dragleave', (event) => {
+      if (!event.relatedTarget) dropping.value = false;
+    });
+    on('drop', (event) => {
+      if (!ofFiles(event) || !event.dataTransfer) return;
+      event.preventDefault();
+      dropping.value = false;
+      void filesOf(event.dataTransfer).then(openFiles);
+    });
+    return () => abort.abort();
+  }, []);
+}
+
+function Head() {
+  const page = place.value.page;
+  const link = (name: string, href: string, text: string) => (
+    <a href={href} {...(page === name ? { 'aria-current': 'page' as const } : {})}>{text}</a>
+  );
+  return (
+    <header class="head">
+      <a class="brand" href="#/" aria-label="Farol, all scenes"><Mark /><span>Farol</span></a>
+      <nav aria-label="Pages">
+        {link('gallery', '#/', 'Scenes')}
+        {link('new', '#/new', 'New')}
+        {link('grade', '#/grade', 'Grade')}
+      </nav>
+      <span class="space" />
+      <a class="quiet" href="/openapi.yaml">API</a>
+      <Tool icon={dark.value ? 'sun' : 'moon'} label={dark.value ? 'Light theme' : 'Dark theme'} onClick={toggleTheme} />
+    </header>
+  );
+}
+
+function UploadNote() {
+  const problem = uploadProblem.value;
+  return (
+    <>
+      {uploading.value && <div class="overlay" role="status"><p>Sending “{uploading.value}”…</p></div>}
+      {dropping.value && <div class="overlay drop" aria-hidden="true"><p>Drop a scene, a mesh, a folder or a zip to open it</p></div>}
+      {problem && (
+        <div class="note-box" role="alert">
+          <div><h2>{problem.title}</h2><Findings findings={problem.findings} /></div>
+          <Tool icon="close" label="Close" onClick={() => (uploadProblem.value = null)} />
+        </div>
+      )}
+    </>
+  );
+}
+
+export function App() {
+  useDrops();
+  const where = place.value;
+  const id = where.page === 'scene' ? where.id : null;
+  return (
+    <>
+      <a class="skip" href="#main" onClick={(event) => {
+        event.preventDefault();
+        document.getElementById('main')?.querySelector<HTMLElement>('[tabindex], a, button, input')?.focus();
+      }}>Skip to the content</a>
+      <Head />
+      {where.page === 'gallery' && <Gallery />}
+      {(where.page === 'scene' || where.page === 'new') && (
+        <ViewerPage key={id ?? ''} id={id} view={where.page === 'scene' ? where.view : new URLSearchParams()} />
+      )}
+      <UploadNote />
+      <Toast />
+    </>
+  );
+}

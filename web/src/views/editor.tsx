@@ -1,0 +1,60 @@
+// The scene's XML beside the picture.
+import { effect } from '@preact/signals';
+import { useEffect, useRef, useState } from 'preact/hooks';
+import { findingsOf, sentence } from '../api.ts';
+import { createEditor, type Editor as CodeEditor } from '../editor/codemirror.ts';
+import type { Viewer } from '../scene/viewer.ts';
+import { storeEdited } from '../scene/store_edited.ts';
+import { Tool } from './ui.tsx';
+import { saveBlob } from './toolbar.tsx';
+
+export function Editor({ viewer }: { viewer: Viewer }) {
+  const host = useRef<HTMLDivElement>(null);
+  const [problem, setProblem] = useState('');
+  const [storing, setStoring] = useState(false);
+  const ready = viewer.text.value !== null;
+  useEffect(() => {
+    viewer.loadText().catch((fault: unknown) => setProblem(findingsOf(fault).map(sentence).join(' ')));
+  }, [viewer]);
+  useEffect(() => {
+    if (!ready) return;
+    const editor: CodeEditor = createEditor(host.current as HTMLDivElement, viewer.text.peek() ?? '', (text) => viewer.edit(text, 'typing'));
+    const stops = [
+      effect(() => editor.setText(viewer.text.value ?? '')),
+      effect(() => editor.setFindings(viewer.findings.value.filter((one) => viewer.isOfDocument(one)))),
+      effect(() => {
+        const place = viewer.reveal.value;
+        if (!place) return;
+        viewer.reveal.value = null;
+        // After the panel has its size: a place cannot be scrolled to before.
+        requestAnimationFrame(() => editor.reveal(place.line, place.column));
+      }),
+    ];
+    return () => {
+      stops.forEach((stop) => stop());
+      editor.destroy();
+    };
+  }, [viewer, ready]);
+  const store = async (): Promise<void> => {
+    setStoring(true);
+    await storeEdited(viewer);
+    setStoring(false);
+  };
+  const save = (): void => saveBlob(new Blob([viewer.text.value ?? ''], { type: 'application/xml' }), 'scene.xml');
+  return (
+    <div class="editor">
+      {problem && <p class="problem" role="alert">{problem}</p>}
+      {!ready && !problem && <p class="note">Loading…</p>}
+      <div class="code" ref={host} />
+      <div class="editor-foot">
+        <span class="note" role="status">{viewer.edited.value ? 'Edited; kept in this browser.' : 'As on the server.'}</span>
+        <span class="space" />
+        {viewer.edited.value && <button type="button" class="link" onClick={() => viewer.discardEdits()}>Discard</button>}
+        <Tool icon="download" label="Download the XML" onClick={save} />
+        <button type="button" class="button small" disabled={storing || !ready} onClick={() => void store()}>
+          {storing ? 'Storing…' : 'Store and share'}
+        </button>
+      </div>
+    </div>
+  );
+}

@@ -1,0 +1,132 @@
+// The scenes one can open.
+import { signal } from '@preact/signals';
+import { useEffect, useRef, useState } from 'preact/hooks';
+import { findingsOf, listScenes, sentence, type SceneFacts } from '../api.ts';
+import { scenePlace } from '../router.ts';
+import { pickFiles } from '../upload.ts';
+import { Icon } from './icons.tsx';
+
+interface Listing {
+  words: string;
+  scenes: SceneFacts[];
+  pages: number;
+  page: number;
+  total: number;
+}
+
+const words = signal('');
+const listing = signal<Listing | null>(null);
+const problem = signal('');
+const loading = signal(false);
+let request = 0;
+
+// A server without the parameter q lists everything: what does not match is left out here.
+function matches(scene: SceneFacts, text: string): boolean {
+  const all = `${scene.id} ${scene.title} ${scene.description}`.toLowerCase();
+  return text.toLowerCase().split(/\s+/).every((word) => all.includes(word));
+}
+
+async function load(page: number): Promise<void> {
+  const number = ++request, text = words.value.trim();
+  loading.value = true;
+  try {
+    const answer = await listScenes(page, text);
+    if (number !== request) return;
+    const before = page > 1 && listing.value ? listing.value.scenes : [];
+    const scenes = [...before, ...answer.scenes.filter((scene) => matches(scene, text))];
+    listing.value = { words: text, scenes, pages: answer.pages, page, total: answer.total };
+    problem.value = '';
+  } catch (fault) {
+    if (number === request) problem.value = `The scenes cannot be listed. ${findingsOf(fault).map(sentence).join(' ')}`;
+  } finally {
+    if (number === request) loading.value = false;
+  }
+}
+
+function Thumbnail({ scene }: { scene: SceneFacts }) {
+  const [attempt, setAttempt] = useState(0);
+  if (!scene.valid || attempt > 4)
+    return <div class="thumbnail none">{scene.valid ? 'no picture' : 'cannot be read'}</div>;
+  // A busy server answers 503: ask again a little later, and not for ever.
+  const retry = (): void => void setTimeout(() => setAttempt(attempt + 1), 1000 * (attempt + 1));
+  const shown = (event: Event): void => (event.currentTarget as HTMLElement).classList.add('loaded');
+  return (
+    <img key={attempt} class="thumbnail" loading="lazy" width={320} height={240} alt="" decoding="async"
+      src={scene.links.thumbnail} onError={retry} onLoad={shown} />
+  );
+}
+
+function facts(scene: SceneFacts): string[] {
+  const { counts } = scene;
+  if (!counts) return [];
+  const number = (n: number, one: string): string => `${n.toLocaleString('en')} ${one}${n === 1 ? '' : 's'}`;
+  return [number(counts.models, 'model'), number(counts.triangles, 'triangle')];
+}
+
+function Card({ scene }: { scene: SceneFacts }) {
+  const fault = scene.diagnostics.find((one) => one.severity === 'error');
+  return (
+    <li class={scene.valid ? 'card' : 'card broken'}>
+      <a href={scenePlace(scene.id)}>
+        <div class="frame">
+          <Thumbnail scene={scene} />
+          {scene.animated && <span class="badge"><Icon name="play" />animated</span>}
+        </div>
+        <div class="words">
+          <h2>{scene.title}</h2>
+          <p class="description">{scene.valid ? scene.description : fault ? sentence(fault) : 'This scene cannot be read.'}</p>
+          {scene.valid && <p class="facts">{facts(scene).map((text) => <span key={text}>{text}</span>)}</p>}
+        </div>
+      </a>
+    </li>
+  );
+}
+
+export function Gallery() {
+  const timer = useRef<ReturnType<typeof setTimeout>>();
+  useEffect(() => {
+    document.title = 'Scenes · Farol';
+    void load(1);
+  }, []);
+  const shown = listing.value;
+  const type = (text: string): void => {
+    words.value = text;
+    clearTimeout(timer.current);
+    timer.current = setTimeout(() => void load(1), 150);
+  };
+  return (
+    <main class="gallery" id="main">
+      <div class="lead">
+        <div>
+          <h1>Scenes</h1>
+          <p>Every pixel is drawn on the server. Open one, or drop your own anywhere on this page.</p>
+        </div>
+        <div class="find">
+          <label class="search">
+            <Icon name="search" />
+            <input type="search" placeholder="Search scenes" aria-label="Search scenes" value={words.value}
+              onInput={(event) => type(event.currentTarget.value)} />
+          </label>
+          <button type="button" class="button" onClick={() => pickFiles(false)}><Icon name="upload" />Open files</button>
+          <button type="button" class="button" onClick={() => pickFiles(true)}>Open a folder</button>
+        </div>
+      </div>
+      {problem.value && <p class="problem" role="alert">{problem.value}</p>}
+      <ul class="cards" aria-busy={loading.value}>
+        {shown
+          ? shown.scenes.map((scene) => <Card key={scene.id} scene={scene} />)
+          : !problem.value && Array.from({ length: 8 }, (_, i) => <li key={i} class="card ghost" aria-hidden="true"><div class="frame" /><div class="words" /></li>)}
+      </ul>
+      <p class="note" role="status">
+        {shown && shown.scenes.length === 0 && (shown.words
+          ? `No scene matches “${shown.words}”.`
+          : 'This server has no scenes. Start it with --scenes FOLDER, or drop one of your own here.')}
+      </p>
+      {shown && shown.page < shown.pages && (
+        <button type="button" class="button more" disabled={loading.value} onClick={() => void load(shown.page + 1)}>
+          More scenes ({shown.scenes.length} of {shown.total})
+        </button>
+      )}
+    </main>
+  );
+}

@@ -1,0 +1,2 @@
+import type { Viewer } from '../scene/viewer.ts';
+export const Inspector = (_: { viewer: Viewer }) => <p class="note">…</p>;

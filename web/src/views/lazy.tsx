@@ -1,0 +1,22 @@
+// Views that are loaded when they are first shown.
+import type { ComponentType, FunctionComponent } from 'preact';
+import { useEffect, useState } from 'preact/hooks';
+
+export function lazyView<Props extends object>(load: () => Promise<ComponentType<Props>>, what: string): FunctionComponent<Props> {
+  let loaded: ComponentType<Props> | null = null;
+  return function Lazy(props) {
+    const [state, setState] = useState<'loading' | 'ready' | 'failed'>(loaded ? 'ready' : 'loading');
+    useEffect(() => {
+      if (loaded) return;
+      load().then((view) => {
+        loaded = view;
+        setState('ready');
+      }, () => setState('failed'));
+    }, []);
+    if (state === 'ready' && loaded) {
+      const View = loaded as ComponentType<object>;
+      return <View {...props} />;
+    }
+    return <p class="note">{state === 'failed' ? `The server did not send ${what}. Load the page again.` : 'Loading…'}</p>;
+  };
+}

@@ -1,0 +1,48 @@
+// The picture, and what lies over it.
+import { useEffect, useRef } from 'preact/hooks';
+import { listen, type Actions } from '../input.ts';
+import type { Viewer } from '../scene/viewer.ts';
+import { HudView } from './hud.tsx';
+
+const help =
+  'Drag or arrow keys orbit, right drag or two fingers pan, wheel or plus and minus zoom, W A S D move the focus, R resets, Space plays';
+
+export function Stage({ viewer, actions }: { viewer: Viewer; actions: Actions }) {
+  const stage = useRef<HTMLDivElement>(null);
+  const canvas = useRef<HTMLCanvasElement>(null);
+  useEffect(() => {
+    const box = stage.current as HTMLDivElement, surface = canvas.current as HTMLCanvasElement;
+    const asked = { width: 0, height: 0 }; // the size of the last picture that was asked for
+    const context = surface.getContext('2d', { alpha: false });
+    viewer.canvas = {
+      draw(bitmap) {
+        if (surface.width !== bitmap.width || surface.height !== bitmap.height) {
+          surface.width = bitmap.width;
+          surface.height = bitmap.height;
+        }
+        context?.drawImage(bitmap, 0, 0);
+      },
+      size() {
+        [asked.width, asked.height] = [box.clientWidth, box.clientHeight];
+        return { ...asked, ratio: window.devicePixelRatio || 1 };
+      },
+    };
+    const stop = listen(box, viewer, actions);
+    const observer = new ResizeObserver(() => {
+      if (box.clientWidth !== asked.width || box.clientHeight !== asked.height) viewer.redraw();
+    });
+    observer.observe(box);
+    return () => {
+      stop();
+      observer.disconnect();
+      viewer.canvas = null;
+    };
+  }, [viewer]);
+  const title = viewer.facts.value?.title ?? 'Your scene';
+  return (
+    <div class="stage" ref={stage} tabIndex={0} role="application" aria-label={`${title}. ${help}`} aria-busy={!viewer.pictured.value}>
+      <canvas ref={canvas} role="img" aria-label={`Picture of ${title}`} class={viewer.pictured.value ? '' : 'blank'} width={16} height={9} />
+      <HudView viewer={viewer} />
+    </div>
+  );
+}

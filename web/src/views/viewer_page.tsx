@@ -1,0 +1,109 @@
+// A scene: its picture, the tools for it, and a panel beside it.
+import { signal } from '@preact/signals';
+import { lazyView } from './lazy.tsx';
+import { useEffect, useMemo } from 'preact/hooks';
+import { parseView } from '../router.ts';
+import { Viewer } from '../scene/viewer.ts';
+import { newScene } from '../scene/template.ts';
+import { recall, remember } from '../storage.ts';
+import { Stage } from './stage.tsx';
+import { TimeBar } from './time_bar.tsx';
+import { Toolbar } from './toolbar.tsx';
+import { Findings } from './ui.tsx';
+import { ViewPanel } from './view_panel.tsx';
+
+export type PanelName = 'none' | 'view' | 'inspect' | 'xml';
+export const panel = signal<PanelName>('none');
+
+const tabs: [PanelName, string][] = [['view', 'View'], ['inspect', 'Inspect'], ['xml', 'XML']];
+
+export function openPanel(name: PanelName): void {
+  panel.value = name;
+  remember('panel', name);
+}
+
+function Panel({ viewer }: { viewer: Viewer }) {
+  if (panel.value === 'none') return null;
+  const keys = (event: KeyboardEvent): void => {
+    const step = event.key === 'ArrowRight' ? 1 : event.key === 'ArrowLeft' ? -1 : 0;
+    if (!step) return;
+    const at = tabs.findIndex(([name]) => name === panel.value);
+    const next = tabs[(at + step + tabs.length) % tabs.length];
+    if (!next) return;
+    openPanel(next[0]);
+    document.getElementById(`tab-${next[0]}`)?.focus();
+  };
+  return (
+    <aside class={`panel of-${panel.value}`} aria-label="Settings and source">
+      <div class="tabs" role="tablist" aria-label="Panel" onKeyDown={keys}>
+        {tabs.map(([name, text]) => (
+          <button key={name} type="button" role="tab" id={`tab-${name}`} aria-controls="panel-body"
+            aria-selected={panel.value === name} tabIndex={panel.value === name ? 0 : -1} onClick={() => openPanel(name)}>{text}</button>
+        ))}
+      </div>
+      <div class="panel-body" id="panel-body" role="tabpanel" aria-labelledby={`tab-${panel.value}`}>
+        {panel.value === 'view' && <ViewPanel viewer={viewer} />}
+        {panel.value === 'inspect' && <Inspector viewer={viewer} />}
+        {panel.value === 'xml' && <Editor viewer={viewer} />}
+      </div>
+    </aside>
+  );
+}
+
+const Inspector = lazyView(() => import('./inspector.tsx').then((module) => module.Inspector), 'the inspector');
+const Editor = lazyView(() => import('./editor.tsx').then((module) => module.Editor), 'the editor');
+
+export function ViewerPage({ id, view }: { id: string | null; view: URLSearchParams }) {
+  const viewer = useMemo(() => new Viewer(id), [id]);
+  useEffect(() => {
+    const kept = recall('panel') as PanelName | null;
+    const wide = matchMedia('(min-width: 60rem)').matches;
+    panel.value = id === null ? 'xml' : wide && kept ? kept : 'none';
+    void viewer.open(parseView(view), newScene);
+    const keep = (): void => viewer.flushDraft();
+    addEventListener('pagehide', keep);
+    return () => {
+      removeEventListener('pagehide', keep);
+      viewer.close();
+    };
+  }, [viewer]);
+  const facts = viewer.facts.value;
+  const title = facts?.title ?? (id === null ? 'Your scene' : id);
+  useEffect(() => {
+    document.title = `${title} · Farol`;
+  }, [title]);
+  const pick = async (x: number, y: number): Promise<void> => {
+    const { pickModel } = await import('../scene/pick.ts');
+    await pickModel(viewer, x, y);
+  };
+  const light = async (alpha: number, beta: number): Promise<void> => {
+    const { turnLight } = await import('../scene/camera_light.ts');
+    await turnLight(viewer, alpha, beta);
+  };
+  return (
+    <main class={panel.value === 'none' ? 'viewer' : 'viewer with-panel'} id="main">
+      <div class="view">
+        <div class="title">
+          <h1>{title}</h1>
+          {facts?.description && <p title={facts.description}>{facts.description}</p>}
+        </div>
+        <Toolbar viewer={viewer} />
+        <Stage viewer={viewer} actions={{ pick: (x, y) => void pick(x, y), light: (a, b) => void light(a, b) }} />
+        <TimeBar viewer={viewer} />
+        <div class="below" aria-live="polite">
+          {viewer.notice.value && (
+            <p class="notice">
+              {viewer.notice.value}
+              {viewer.edited.value && <button type="button" class="link" onClick={() => viewer.discardEdits()}>Discard the edits</button>}
+            </p>
+          )}
+          <Findings findings={viewer.findings.value} onPick={(finding) => {
+            openPanel('xml');
+            viewer.reveal.value = { line: finding.line ?? 1, column: finding.column ?? 1 };
+          }} />
+        </div>
+      </div>
+      <Panel viewer={viewer} />
+    </main>
+  );
+}

@@ -73,10 +73,12 @@ http::Response Service::drawn(Done<render::Picture> done) {
 }
 
 http::Response Service::postRender(const Call& call) {
-    const ParameterRules rules{true, true, kTurnNames, {}};
+    ParameterRules rules{true, true, kTurnNames, {}};
+    rules.ownNames.emplace_back("base");
     // A fault in the query is told before the body is taken in.
-    const Turn turn = turnOf(readParameters(call.request.query, rules));
-    Upload upload = readUpload(call.request, call.body, options_.maxBodyBytes);
+    const Parameters asked = readParameters(call.request.query, rules);
+    const Turn turn = turnOf(asked);
+    Upload upload = takeUpload(call, asked.ownValue("base"));
     Parameters wanted = readParameters(call.request.query, rules, upload.optionsJson);
     chooseFormat(wanted, call.request.header("accept"));
     upload.job.options = wanted.picture;
@@ -88,8 +90,8 @@ http::Response Service::postRender(const Call& call) {
 }
 
 http::Response Service::postValidate(const Call& call) {
-    const Parameters wanted = readParameters(call.request.query, {false, true, {}, {}});
-    Upload upload = readUpload(call.request, call.body, options_.maxBodyBytes);
+    const Parameters wanted = readParameters(call.request.query, {false, true, {"base"}, {}});
+    Upload upload = takeUpload(call, wanted.ownValue("base"));
     upload.job.strict = wanted.strict;
     const Done<render::SceneReport> done = backend_.inspect(upload.job);
     json body = toJson(done.result);
@@ -104,7 +106,7 @@ http::Response Service::postValidate(const Call& call) {
 http::Response Service::getImage(const Call& call, const http::Fields& preset) {
     Parameters wanted = readParameters(call.request.query, {true, true, kTurnNames, preset});
     const Turn turn = turnOf(wanted);
-    const ServedScene scene = sceneOf(call);
+    const ServedScene scene = sceneOf(call.parameter);
     chooseFormat(wanted, call.request.header("accept"));
     render::Job job = jobOfScene(scene);
     job.options = wanted.picture;

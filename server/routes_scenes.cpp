@@ -49,15 +49,13 @@ std::vector<std::string> splitWords(const std::string& text) {
 
 }  // namespace
 
-ServedScene Service::sceneOf(const Call& call) const {
+ServedScene Service::sceneOf(const std::string& id) const {
     std::optional<ServedScene> scene;
-    if (!store::isStoredId(call.parameter))
-        scene = scenes_.find(call.parameter);
-    else if (const auto stored = store_->get(call.parameter))
+    if (!store::isStoredId(id))
+        scene = scenes_.find(id);
+    else if (const auto stored = store_->get(id))
         scene = uploadOf(stored->entry);
-    if (!scene)
-        throw Error("http.not-found",
-                    "There is no scene " + scene::quoted(call.parameter) + " here.");
+    if (!scene) throw Error("http.not-found", "There is no scene " + scene::quoted(id) + " here.");
     return std::move(*scene);
 }
 
@@ -124,7 +122,7 @@ http::Response Service::listScenes(const Call& call) {
 
 http::Response Service::getScene(const Call& call) {
     readParameters(call.request.query, {});
-    const ServedScene scene = sceneOf(call);
+    const ServedScene scene = sceneOf(call.parameter);
     const auto facts = known(scene);
     return tagged(call, dump(describe(scene, facts->report, facts->errors), 2) + "\n",
                   "application/json");
@@ -132,7 +130,7 @@ http::Response Service::getScene(const Call& call) {
 
 http::Response Service::getSource(const Call& call) {
     readParameters(call.request.query, {});
-    return tagged(call, jobOfScene(sceneOf(call)).xml, "application/xml");
+    return tagged(call, jobOfScene(sceneOf(call.parameter)).xml, "application/xml");
 }
 
 http::Response Service::listPrimitives(const Call& call) {

@@ -28,6 +28,30 @@ std::optional<std::string> bearerOf(const http::Request& request) {
     return std::string(scene::trimmed(std::string_view(*header).substr(space)));
 }
 
+// The document of the upload in the place of the job's own, beside the job's files.
+Upload onFilesOf(render::Job base, const Upload& document) {
+    Upload out;
+    out.optionsJson = document.optionsJson;
+    out.job = std::move(base);
+    out.job.xml = document.job.xml;
+    out.job.identity = scene::contentDigest(out.job.identity + "\n" + document.job.identity);
+    return out;
+}
+
+// What a job needs, copied to be kept.
+scene::Bundle bundleOf(const render::Job& job) {
+    scene::Bundle bundle{job.name, {{job.name, job.xml}}};
+    for (const std::string& path : job.assets->list()) {
+        if (path == job.name) continue;
+        if (auto bytes = job.assets->read(path)) bundle.files[path] = std::move(*bytes);
+        if (bundle.files.size() > scene::kMaxBundleFiles || bundle.bytes() > scene::kMaxBundleBytes)
+            throw Error("limit.bundle",
+                        "The scene's folder holds more than 256 files or 64 MiB: send the scene "
+                        "with the files that it needs.");
+    }
+    return bundle;
+}
+
 }  // namespace
 
 void Service::authorize(const Call& call) const {
@@ -38,16 +62,27 @@ void Service::authorize(const Call& call) const {
                                                : "This needs \"Authorization: Bearer TOKEN\".");
 }
 
+Upload Service::takeUpload(const Call& call, const std::string& base) const {
+    Upload upload = readUpload(call.request, call.body, options_.maxBodyBytes);
+    if (base.empty()) return upload;
+    if (!upload.bundle || upload.bundle->files.size() != 1)
+        throw Error("option.range", "base= is for a document that comes alone, without files.", {},
+                    "base");
+    return onFilesOf(jobOfScene(sceneOf(base)), upload);
+}
+
 http::Response Service::postScene(const Call& call) {
     authorize(call);
-    const Parameters wanted = readParameters(call.request.query, {false, true, {"public"}, {}});
+    const Parameters wanted =
+        readParameters(call.request.query, {false, true, {"public", "base"}, {}});
     const bool listed = wholeNumber("public", wanted.ownValue("public", "0"), 0, 1) == 1;
-    Upload upload = readUpload(call.request, call.body, options_.maxBodyBytes);
+    Upload upload = takeUpload(call, wanted.ownValue("base"));
     // Options are of a picture, not of a scene: they are looked at, and left.
     readParameters({}, {true, true, {}, {}}, upload.optionsJson);
     if (!upload.job.archive.empty())
         upload.bundle =
             std::make_shared<const scene::Bundle>(backend_.unpack(upload.job.archive).result);
+    if (!upload.bundle) upload.bundle = std::make_shared<const scene::Bundle>(bundleOf(upload.job));
     render::Job job = jobOf(upload.bundle);
     job.strict = wanted.strict;
     const auto facts = std::make_shared<Known>();
@@ -69,7 +104,7 @@ http::Response Service::deleteScene(const Call& call) {
     authorize(call);
     readParameters(call.request.query, {});
     if (!store::isStoredId(call.parameter)) {
-        sceneOf(call);  // or it is a 404
+        sceneOf(call.parameter);  // or it is a 404
         return problemResponse({405,
                                 "http.method",
                                 "The scenes of the served folder cannot be deleted.",

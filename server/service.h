@@ -17,6 +17,7 @@
 #include "server/router.h"
 #include "server/scenes.h"
 #include "server/store/scene_store.h"
+#include "server/upload.h"
 
 namespace farol::server {
 
@@ -73,8 +74,9 @@ class Service final : public http::Handler {
     http::Response listPrimitives(const Call& call);
     http::Response getPrimitive(const Call& call);
 
-    ServedScene sceneOf(const Call& call) const;
+    ServedScene sceneOf(const std::string& id) const;
     render::Job jobOfScene(const ServedScene& scene) const;
+    Upload takeUpload(const Call& call, const std::string& base) const;
     void authorize(const Call& call) const;
     std::shared_ptr<const Known> known(const ServedScene& scene);
     void remember(const std::string& id, std::shared_ptr<const Known> facts);

@@ -65,6 +65,49 @@ TEST_CASE("an upload is kept under its content's address and is like a served sc
         CHECK(get(server.port(), at + what).status == 404);
 }
 
+TEST_CASE("with base= a document takes the place of a scene's own, beside its files") {
+    const TemporaryFolder folder("http-base");
+    folder.write("box/scene.xml", "<world>old</world>");
+    folder.write("box/tile.png", "pixels");
+    server::ServiceOptions options;
+    options.scenesDir = folder.path();
+    FakeServer server(options);
+    std::vector<render::Job> jobs;
+    server.backend.onRender = [&](const render::Job& job) {
+        jobs.push_back(job);
+        return render::Picture{};
+    };
+    const auto rendering = [](const std::string& query, const std::string& body) {
+        return Ask{"POST", "/v1/render" + query, {{"Content-Type", "application/xml"}}, body};
+    };
+    const Answer kept = ask(server.port(), storing("?base=box", "<world>new</world>"));
+    REQUIRE(kept.status == 201);
+    const std::string id = kept.json()["id"];
+    for (const std::string& base : {std::string("box"), id}) {
+        INFO(base);
+        jobs.clear();
+        CHECK(ask(server.port(), rendering("?base=" + base, "<world>1</world>")).status == 200);
+        CHECK(ask(server.port(), rendering("?base=" + base, "<world>2</world>")).status == 200);
+        REQUIRE(jobs.size() == 2);
+        CHECK(jobs[0].xml == "<world>1</world>");
+        CHECK(jobs[0].name == "scene.xml");
+        CHECK(jobs[0].assets->read("tile.png") == "pixels");
+        CHECK(jobs[0].identity != jobs[1].identity);
+        CHECK(!jobs[0].identity.empty());
+    }
+    CHECK(get(server.port(), "/v1/scenes/" + id + "/source").body == "<world>new</world>");
+    CHECK(get(server.port(), "/v1/scenes/box/source").body == "<world>old</world>");
+    CHECK(ask(server.port(), rendering("?base=missing", "<world/>")).status == 404);
+    const std::string parts =
+        multipart({{"scene", "a.xml", "<world/>", ""}, {"f", "b.png", "b", ""}});
+    const Answer both =
+        ask(server.port(), {"POST",
+                            "/v1/render?base=box",
+                            {{"Content-Type", "multipart/form-data; boundary=frontier"}},
+                            parts});
+    CHECK(both.status == 400);
+}
+
 TEST_CASE("the same files have the same address, however they are sent") {
     FakeServer server;
     const std::string parts =

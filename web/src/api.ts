@@ -25,6 +25,7 @@ export interface SceneFacts {
   loopSeconds?: number;
   camera?: LookAt;
   counts?: { models: number; lights: number; textures: number; triangles: number; textureBytes: number };
+  models?: { id: number; line?: number; column?: number; file?: string; name?: string }[];
   diagnostics: Finding[];
   links: { self: string; source: string; image: string; thumbnail: string };
   upload?: boolean;
@@ -94,8 +95,11 @@ export const getScene = (id: string): Promise<SceneFacts> => json(scenePath(id))
 
 export const getSource = async (id: string): Promise<string> => (await request(`${scenePath(id)}/source`)).text();
 
-export const validate = (body: BodyInit, parameters = ''): Promise<SceneFacts> =>
-  json(`/v1/validate${parameters}`, { method: 'POST', body });
+/** Facts about a document, beside the files of the scene `base`. */
+export const validate = (xml: string, base: string | null): Promise<SceneFacts> =>
+  json(`/v1/validate${base === null ? '' : `?${query({ base })}`}`, {
+    method: 'POST', body: xml, headers: { 'Content-Type': 'application/xml' },
+  });
 
 /** A finding as a sentence with its place. */
 export function sentence(finding: Finding): string {

@@ -38,7 +38,10 @@ export interface Origin {
   text: string | null; // the edited document; null: as it is stored
 }
 
-export const turnOf = (_seq: number): Options => ({});
+const session = `p${crypto.getRandomValues(new Uint32Array(2)).join('-')}`;
+
+/** One page, one session: its newer frames drop its older ones that still wait. */
+export const turnOf = (seq: number): Options => ({ session, seq });
 
 export function pictureUrl(origin: Origin, options: Options): string {
   if (origin.text === null && origin.id !== null)

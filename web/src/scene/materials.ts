@@ -134,7 +134,7 @@ export function setColor(text: string, kind: Part['kind'], index: number, compon
   const child = holder && childOf(holder, ...children[component]);
   if (child) {
     const max = numberOf(child, ['max'], 255);
-    return applyEdits(text, merged(channels(child, (c) => [c], max)));
+    return applyEdits(text, channels(child, (c) => [c], max));
   }
   const wide = (): string => `<${component} ${channel.map((c, i) => `${c}="${Math.round((color[i] as number) * 255)}"`).join(' ')} />`;
   if (holder) return applyEdits(text, [appendChild(text, holder, wide(), unit)]);
@@ -143,21 +143,10 @@ export function setColor(text: string, kind: Part['kind'], index: number, compon
   const manner = mannerOf(roots);
   if (present.length > 0 || manner === 'engine2017' || kind === 'light') {
     const scale = present.some((value) => value > 1) ? 255 : 1;
-    return applyEdits(text, merged(channels(element, (c) => short[component].map((name) => name + c), scale)));
+    return applyEdits(text, channels(element, (c) => short[component].map((name) => name + c), scale));
   }
   if (manner === 'engine2020') return applyEdits(text, [setAttribute(element, words[component], toHex(color))]);
   return applyEdits(text, [appendChild(text, element, `<color> ${wide()} </color>`, unit)]);
-}
-
-/** Insertions at one place become one, in their order: otherwise they would be turned round. */
-function merged(edits: readonly Edit[]): Edit[] {
-  const out: Edit[] = [];
-  for (const edit of edits) {
-    const before = out.find((one) => one.from === one.to && edit.from === edit.to && one.from === edit.from);
-    if (before) before.insert += edit.insert;
-    else out.push({ ...edit });
-  }
-  return out;
 }
 
 export function shininessOf(element: XmlElement): number {

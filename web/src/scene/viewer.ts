@@ -1,7 +1,9 @@
 // The state of one scene on show, and what changes it. Views read the signals; every change of
 // the view asks the frame loop for pictures.
 import { batch, computed, signal } from '@preact/signals';
-import { findingsOf, getScene, getSource, orbitOptions, Problem, type Finding, type Options, type SceneFacts } from '../api.ts';
+import {
+  findingsOf, getScene, getSource, orbitOptions, Problem, validate, type Finding, type Options, type SceneFacts,
+} from '../api.ts';
 import { FrameLoop, type Shown } from '../frames/loop.ts';
 import { FrameRate, type Latency } from '../frames/timing.ts';
 import { fitFov, orbitOf, walkOf, walkTarget, type LookAt, type Orbit, type Walk } from '../maths/camera.ts';
@@ -29,7 +31,7 @@ export interface Hud {
   stats: Frame['stats'];
 }
 
-export type Canvas = { draw(bitmap: ImageBitmap): void; size(): { width: number; height: number; ratio: number } };
+export type Canvas = { draw(bitmap: ImageBitmap, seq: number): void; size(): { width: number; height: number; ratio: number } };
 
 export class Viewer {
   readonly facts = signal<SceneFacts | null>(null);
@@ -46,6 +48,7 @@ export class Viewer {
   readonly hud = signal<Hud | null>(null);
   readonly still = signal<Blob | null>(null); // the last full picture
   readonly pictured = signal(false);
+  readonly picked = signal<{ number: number; line: number } | null>(null); // the model last clicked
   readonly reveal = signal<{ line: number; column: number } | null>(null); // a place the editor goes to
   readonly edited = computed(() => this.text.value !== null && this.text.value !== this.original.value);
   readonly clock: SceneClock;
@@ -58,6 +61,8 @@ export class Viewer {
   private draftTimer: ReturnType<typeof setTimeout> | undefined;
   private typeTimer: ReturnType<typeof setTimeout> | undefined;
   private latest: Frame | null = null;
+  private latestSeq = 0;
+  private known: { text: string; facts: SceneFacts } | null = null; // of the edited document
 
   constructor(readonly id: string | null) {
     this.clock = new SceneClock(() => this.moved(), () => {
@@ -154,8 +159,15 @@ export class Viewer {
 
   discardEdits(): void {
     this.text.value = this.original.value;
+    this.known = null;
     this.flushDraft();
     this.notice.value = '';
+    if (this.id !== null)
+      void getScene(this.id).then((facts) => {
+        if (this.edited.value) return;
+        this.facts.value = facts;
+        this.home = facts.camera ?? this.home;
+      }, () => undefined); // the picture tells what is wrong
     this.loop.settle();
   }
 
@@ -165,6 +177,30 @@ export class Viewer {
     if (text === null) return;
     const kept = saveDraft(this.id, this.edited.value ? { text, base: hashText(this.original.value ?? '') } : null);
     if (!kept) this.notice.value = 'This browser keeps no edits: copy the XML before you leave.';
+  }
+
+  /** What the service knows of the document as it is edited now; null where it cannot be read. */
+  async validated(): Promise<SceneFacts | null> {
+    const { id, text } = this.origin();
+    if (text === null) return this.facts.value;
+    if (this.known?.text === text) return this.known.facts;
+    const facts = await validate(text, id).catch(() => null); // what is wrong comes with the picture
+    if (facts) this.known = { text, facts };
+    return facts;
+  }
+
+  /** After an edit: the animation, the camera and the counts may be others. */
+  private async refresh(): Promise<void> {
+    const { text } = this.origin();
+    if (text === null || this.known?.text === text) return;
+    const facts = await this.validated();
+    if (!facts || this.origin().text !== text) return;
+    batch(() => {
+      const links = this.facts.value?.links ?? { self: '', source: '', image: '', thumbnail: '' };
+      this.facts.value = { ...facts, id: this.id ?? '', links };
+      this.home = facts.camera ?? this.home;
+      this.clock.range(facts.animated ?? false, facts.playFrom ?? 0, facts.loopSeconds ?? 60);
+    });
   }
 
   /** The edits live on elsewhere. */
@@ -219,8 +255,8 @@ export class Viewer {
     return Number(this.sizeOptions()['fov'] ?? this.home?.fov ?? 60);
   }
 
-  private show({ picture, moving, latency }: Shown<Frame>): void {
-    this.canvas?.draw(picture.bitmap);
+  private show({ picture, seq, moving, latency }: Shown<Frame>): void {
+    this.canvas?.draw(picture.bitmap, seq);
     const now = performance.now();
     if (moving) this.rate.add(now);
     else this.rate.clear();
@@ -236,6 +272,8 @@ export class Viewer {
     if (picture.camera && !this.home) this.home = picture.camera;
     this.latest?.bitmap.close();
     this.latest = picture;
+    this.latestSeq = seq;
+    if (!moving) void this.refresh();
   }
 
   private failed(fault: unknown): number | null {
@@ -256,7 +294,7 @@ export class Viewer {
 
   /** The picture before the next one, for a stage of another size. */
   redraw(): void {
-    if (this.latest) this.canvas?.draw(this.latest.bitmap);
+    if (this.latest) this.canvas?.draw(this.latest.bitmap, this.latestSeq);
     this.moved();
   }
 

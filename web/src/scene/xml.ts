@@ -207,8 +207,8 @@ export function appendChild(text: string, element: XmlElement, child: string, un
   return { from: element.openEnd, to: element.closeStart, insert: `\n${outer}${unit}${child}\n${outer}` };
 }
 
-/** Applies edits that do not overlap. */
+/** Applies edits that do not overlap; insertions at one place come in the order given. */
 export function applyEdits(text: string, edits: readonly Edit[]): string {
-  return [...edits].sort((a, b) => b.from - a.from)
+  return edits.map((edit, order) => ({ ...edit, order })).sort((a, b) => b.from - a.from || b.order - a.order)
     .reduce((out, { from, to, insert }) => out.slice(0, from) + insert + out.slice(to), text);
 }

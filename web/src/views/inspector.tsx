@@ -1,2 +1,174 @@
+// Materials, lights and textures by sliders; every change is a change of the XML.
+import { signal } from '@preact/signals';
+import { useEffect, useMemo, useState } from 'preact/hooks';
+import { findingsOf, sentence } from '../api.ts';
+import {
+  colorOf, components, elementOf, fromHex, numberOf, partsOf, setColor, setNumber, setShininess, setTexture, shininessOf, textureOf, texturesOf,
+  toHex, type Component, type Part, type Rgb,
+} from '../scene/materials.ts';
 import type { Viewer } from '../scene/viewer.ts';
-export const Inspector = (_: { viewer: Viewer }) => <p class="note">…</p>;
+import { attributeOf, parseXml, type XmlElement } from '../scene/xml.ts';
+import { Section } from './ui.tsx';
+
+const chosen = signal<{ kind: Part['kind']; index: number } | null>(null);
+const filter = signal('');
+const maxListed = 200;
+
+interface Edits {
+  viewer: Viewer;
+  roots: XmlElement[];
+  element: XmlElement;
+  kind: Part['kind'];
+  index: number;
+}
+
+function Slider({ label, value, min, max, step, onInput, short }: {
+  label: string; value: number; min: number; max: number; step: number; onInput: (value: number) => void; short?: string;
+}) {
+  const shown = Number(value.toFixed(step < 0.01 ? 3 : step < 1 ? 2 : 0));
+  return (
+    <label class="slider">
+      <span>{short ?? label}</span>
+      <input type="range" aria-label={label} min={Math.min(min, value)} max={Math.max(max, value)} step={step} value={value}
+        onInput={(event) => onInput(Number(event.currentTarget.value))} />
+      <output>{shown}</output>
+    </label>
+  );
+}
+
+const names: Record<Component, string> = { diffuse: 'Diffuse', ambient: 'Ambient', specular: 'Specular', emissive: 'Emissive' };
+
+function ColorRow({ edits, component }: { edits: Edits; component: Component }) {
+  const { viewer, roots, element, kind, index } = edits;
+  const color = colorOf(roots, element, component);
+  const write = (next: Rgb): void => viewer.edit(setColor(viewer.text.peek() ?? '', kind, index, component, next), 'dragging');
+  const set = (channel: number, value: number): void => write(color.map((x, i) => (i === channel ? value / 255 : x)) as unknown as Rgb);
+  return (
+    <fieldset class="color">
+      <legend>{names[component]}</legend>
+      <input type="color" aria-label={`${names[component]} colour`} value={toHex(color)} onInput={(event) => write(fromHex(event.currentTarget.value))} />
+      <div>
+        {['Red', 'Green', 'Blue'].map((name, i) => (
+          <Slider key={name} label={`${names[component]} ${name.toLowerCase()}`} short={name.charAt(0)} min={0} max={255} step={1}
+            value={Math.round((color[i] as number) * 255)} onInput={(value) => set(i, value)} />
+        ))}
+      </div>
+    </fieldset>
+  );
+}
+
+function Model({ edits }: { edits: Edits }) {
+  const { viewer, roots, element, index } = edits;
+  const textures = useMemo(() => texturesOf(roots), [roots]);
+  const texture = textureOf(element);
+  return (
+    <>
+      {(texture || textures.length > 0) && (
+        <label class="field">
+          <span>Texture</span>
+          <select value={texture} onChange={(event) => viewer.edit(setTexture(viewer.text.peek() ?? '', index, event.currentTarget.value), 'done')}>
+            {!texture && <option value="" selected>none</option>}
+            {textures.map((name) => <option key={name} value={name} selected={name === texture}>{name}</option>)}
+          </select>
+        </label>
+      )}
+      {components.map((component) => <ColorRow key={component} edits={edits} component={component} />)}
+      <Slider label="Shininess" min={0} max={128} step={1} value={shininessOf(element)}
+        onInput={(value) => viewer.edit(setShininess(viewer.text.peek() ?? '', index, value), 'dragging')} />
+    </>
+  );
+}
+
+function Light({ edits }: { edits: Edits }) {
+  const { viewer, element, index } = edits;
+  const type = (attributeOf(element, ['type'])?.value ?? 'point').toLowerCase();
+  const directional = type.startsWith('dir') || type === 'sun', spot = type.startsWith('spot');
+  const angles = directional && attributeOf(element, ['alpha', 'beta']) !== undefined;
+  const reach = Math.max(10, (viewer.home ? Math.hypot(...viewer.home.eye) : 10) * 1.5);
+  const slider = (label: string, attributes: readonly string[], otherwise: number, min: number, max: number, step: number) => (
+    <Slider key={label} label={label} min={min} max={max} step={step} value={numberOf(element, attributes, otherwise)}
+      onInput={(value) => viewer.edit(setNumber(viewer.text.peek() ?? '', 'light', index, attributes, value), 'dragging')} />
+  );
+  const axes = ['X', 'Y', 'Z'] as const;
+  const vector = attributeOf(element, ['dirX', 'dirY', 'dirZ', 'spotDirX', 'directionX']) || !directional ? 'dir' : 'pos';
+  return (
+    <>
+      {angles ? [slider('Alpha', ['alpha'], 0, -180, 180, 1), slider('Beta', ['beta'], 0, -90, 90, 1)] : (
+        <>
+          {!directional && axes.map((axis) => slider(`Place ${axis}`, [`pos${axis}`, axis, `position${axis}`], 0, -reach, reach, reach / 200))}
+          {(directional || spot) && axes.map((axis) => slider(`Direction ${axis}`, [`${vector}${axis}`, `spotDir${axis}`, `direction${axis}`], 0, -1, 1, 0.01))}
+        </>
+      )}
+      {spot && slider('Cutoff', ['cutoff', 'cut', 'cutoffAngle', 'spotCutoff'], 180, 0, 90, 0.5)}
+      {spot && slider('Exponent', ['exponent', 'exp', 'cutoffExponent', 'spotExponent'], 0, 0, 128, 1)}
+      {!directional && [
+        slider('Constant', ['constant', 'attenuationConstant', 'attConstant', 'cons'], 1, 0, 4, 0.01),
+        slider('Linear', ['linear', 'attenuationLinear', 'attLinear', 'lin'], 0, 0, 1, 0.005),
+        slider('Quadratic', ['quadratic', 'attenuationQuadratic', 'attenuation', 'attQuadratic', 'quad'], 0, 0, 1, 0.005),
+      ]}
+      {(['diffuse', 'ambient', 'specular'] as const).map((component) => <ColorRow key={component} edits={edits} component={component} />)}
+    </>
+  );
+}
+
+function PartList({ parts }: { parts: readonly Part[] }) {
+  const words = filter.value.toLowerCase();
+  const found = parts.filter((part) => `${part.label} ${part.group} ${part.kind}`.toLowerCase().includes(words));
+  return (
+    <ul class="parts">
+      {found.slice(0, maxListed).map((part) => {
+        const on = chosen.value?.kind === part.kind && chosen.value.index === part.index;
+        return (
+          <li key={`${part.kind}${part.index}`}>
+            <button type="button" aria-pressed={on} onClick={() => (chosen.value = on ? null : { kind: part.kind, index: part.index })}>
+              <b>{part.kind === 'light' ? `Light: ${part.label}` : part.label}</b>
+              <span>{[part.group, `line ${part.line}`].filter(Boolean).join(', ')}</span>
+            </button>
+          </li>
+        );
+      })}
+      {found.length > maxListed && <li class="note">and {found.length - maxListed} more: type to find one</li>}
+    </ul>
+  );
+}
+
+export function Inspector({ viewer }: { viewer: Viewer }) {
+  const [problem, setProblem] = useState('');
+  useEffect(() => {
+    chosen.value = null;
+    viewer.loadText().catch((fault: unknown) => setProblem(findingsOf(fault).map(sentence).join(' ')));
+  }, [viewer]);
+  const text = viewer.text.value, picked = viewer.picked.value;
+  const roots = useMemo(() => parseXml(text ?? ''), [text]);
+  const parts = useMemo(() => partsOf(text ?? '', roots), [text, roots]);
+  useEffect(() => {
+    const part = picked && parts.find((one) => one.kind === 'model' && one.line === picked.line);
+    if (part) chosen.value = { kind: 'model', index: part.index };
+  }, [picked]);
+  if (problem) return <p class="problem" role="alert">{problem}</p>;
+  if (text === null) return <p class="note">Loading…</p>;
+  const at = chosen.value, element = at ? elementOf(roots, at.kind, at.index) : undefined;
+  const part = at && parts.find((one) => one.kind === at.kind && one.index === at.index);
+  return (
+    <div class="sections">
+      <Section title={`Lights and models (${parts.length})`}>
+        <input type="search" aria-label="Find a light or model" placeholder="Find, or click in the picture" value={filter.value}
+          onInput={(event) => (filter.value = event.currentTarget.value)} />
+        <PartList parts={parts} />
+      </Section>
+      {at && element && part && (
+        <Section title={`${part.kind} ${part.label}`}>
+          {at.kind === 'model'
+            ? <Model edits={{ viewer, roots, element, ...at }} />
+            : <Light edits={{ viewer, roots, element, ...at }} />}
+        </Section>
+      )}
+      {viewer.edited.value && (
+        <p class="note">
+          The XML was edited and is kept in this browser.{' '}
+          <button type="button" class="link" onClick={() => viewer.discardEdits()}>Discard the edits</button>
+        </p>
+      )}
+    </div>
+  );
+}

@@ -15,12 +15,13 @@ export function Stage({ viewer, actions }: { viewer: Viewer; actions: Actions })
     const asked = { width: 0, height: 0 }; // the size of the last picture that was asked for
     const context = surface.getContext('2d', { alpha: false });
     viewer.canvas = {
-      draw(bitmap) {
+      draw(bitmap, seq) {
         if (surface.width !== bitmap.width || surface.height !== bitmap.height) {
           surface.width = bitmap.width;
           surface.height = bitmap.height;
         }
         context?.drawImage(bitmap, 0, 0);
+        surface.dataset['seq'] = String(seq);
       },
       size() {
         [asked.width, asked.height] = [box.clientWidth, box.clientHeight];

@@ -1,0 +1,127 @@
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { Adaptation } from '../../../web/src/frames/adapt.ts';
+import { FrameLoop, restDelayMs, type Ask, type Shown } from '../../../web/src/frames/loop.ts';
+import { FrameRate, median, parseServerTiming, splitLatency } from '../../../web/src/frames/timing.ts';
+
+const sleep = (ms: number): Promise<void> => new Promise((done) => setTimeout(done, ms));
+
+/** A loop whose answers come when the test says so. */
+function harness() {
+  const asked: (Ask & { answer: () => void; fail: (fault: unknown) => void; aborted: () => boolean })[] = [];
+  const shown: Shown<string>[] = [], discarded: string[] = [], faults: unknown[] = [];
+  const loop = new FrameLoop<string>({
+    ask: (ask, signal) => new Promise((done, failed) => {
+      signal.addEventListener('abort', () => failed(new DOMException('aborted', 'AbortError')));
+      asked.push({ ...ask, answer: () => done({ picture: `#${ask.seq}`, serverTiming: null }), fail: failed, aborted: () => signal.aborted });
+    }),
+    show: (one) => shown.push(one), discard: (one) => discarded.push(one),
+    failed: (fault) => {
+      faults.push(fault);
+      return null;
+    },
+    now: () => performance.now(),
+  });
+  return { loop, asked, shown, discarded, faults, last: () => asked[asked.length - 1] };
+}
+
+test('an older frame is never shown over a newer one', async () => {
+  const { loop, asked, shown, discarded } = harness();
+  loop.move();
+  loop.move();
+  assert.equal(asked.length, 2);
+  asked[1]?.answer();
+  await sleep(0);
+  asked[0]?.answer();
+  await sleep(0);
+  assert.deepEqual(shown.map((one) => one.seq), [2]);
+  assert.deepEqual(discarded, ['#1']);
+  loop.stop();
+});
+
+test('many movements wait as one, with the newest view', async () => {
+  const { loop, asked } = harness();
+  for (let i = 0; i < 50; ++i) loop.move();
+  assert.equal(asked.length, loop.pace.inFlight);
+  asked[0]?.answer();
+  await sleep(0);
+  assert.equal(asked.length, loop.pace.inFlight + 1);
+  loop.stop();
+});
+
+test('rest asks for the full picture, and a movement gives it up', async () => {
+  const { loop, asked, last } = harness();
+  loop.move();
+  assert.notEqual(asked[0]?.pace, null);
+  await sleep(restDelayMs + 60);
+  assert.equal(last()?.pace, null);
+  const rest = last();
+  loop.move();
+  assert.equal(rest?.aborted(), true);
+  assert.notEqual(last()?.pace, null);
+  loop.stop();
+});
+
+test('while something plays there is no rest', async () => {
+  const { loop, asked } = harness();
+  loop.hold(true);
+  loop.move();
+  await sleep(restDelayMs + 60);
+  assert.ok(asked.every((one) => one.pace !== null));
+  loop.stop();
+});
+
+test('what another scene answers is void', async () => {
+  const { loop, asked, shown, faults } = harness();
+  loop.settle();
+  loop.restart();
+  asked[0]?.answer();
+  await sleep(0);
+  assert.equal(shown.length, 0);
+  assert.equal(faults.length, 0);
+  loop.stop();
+});
+
+test('a failure is told once, and the loop goes on', async () => {
+  const { loop, asked, shown, faults } = harness();
+  loop.settle();
+  asked[0]?.fail(new Error('no'));
+  await sleep(0);
+  assert.equal(faults.length, 1);
+  loop.settle();
+  asked[1]?.answer();
+  await sleep(0);
+  assert.equal(shown.length, 1);
+  assert.ok(loop.idle);
+});
+
+const latency = (total: number, network = 2) => ({ total, network, queue: 0, prepare: 0, draw: total - network, encode: 0 });
+
+test('slow frames shrink, fast ones grow, and never to the full size', () => {
+  const adaptation = new Adaptation();
+  const first = adaptation.pace.scale;
+  for (let i = 0; i < 40; ++i) adaptation.add(latency(200));
+  assert.ok(adaptation.pace.scale < first);
+  for (let i = 0; i < 400; ++i) adaptation.add(latency(6));
+  assert.ok(adaptation.pace.scale > first && adaptation.pace.scale < 1);
+});
+
+test('a long way to the server is met by more requests, not by smaller frames', () => {
+  const adaptation = new Adaptation();
+  const first = adaptation.pace;
+  for (let i = 0; i < 40; ++i) adaptation.add(latency(130, 120));
+  assert.ok(adaptation.pace.inFlight > first.inFlight);
+  assert.ok(adaptation.pace.scale >= first.scale);
+  assert.equal(adaptation.pace.format, 'webp');
+});
+
+test('the time of a picture is split by Server-Timing', () => {
+  assert.deepEqual(parseServerTiming('queue;dur=1.5, draw;desc="x";dur=3,encode'), { queue: 1.5, draw: 3 });
+  const split = splitLatency(20, 'queue;dur=1, parse;dur=2, geometry;dur=3, draw;dur=4, readback;dur=1, encode;dur=2');
+  assert.deepEqual(split, { total: 20, queue: 1, prepare: 5, draw: 5, encode: 2, network: 7 });
+  assert.equal(splitLatency(1, 'draw;dur=5').network, 0);
+  assert.equal(median([3, 1, 2]), 2);
+  const rate = new FrameRate();
+  for (let i = 0; i <= 10; ++i) rate.add(i * 40);
+  assert.ok(Math.abs(rate.rate(400) - 25) < 1e-9);
+});

@@ -25,11 +25,16 @@ export interface SceneFacts {
   loopSeconds?: number;
   camera?: LookAt;
   counts?: { models: number; lights: number; textures: number; triangles: number; textureBytes: number };
-  models?: { id: number; line?: number; column?: number; file?: string; name?: string }[];
   diagnostics: Finding[];
   links: { self: string; source: string; image: string; thumbnail: string };
   upload?: boolean;
   expires?: string | null;
+}
+
+/** Where the models of a layer=id picture stand: number n is the element copies[n - 1]. */
+export interface ModelPlaces {
+  models: { model: string; file: string; line: number; column: number; id?: string; name?: string }[];
+  copies: number[];
 }
 
 export interface ScenePage {
@@ -88,18 +93,18 @@ export const scenePath = (id: string): string => `/v1/scenes/${id.split('/').map
 export const query = (options: Options): string =>
   new URLSearchParams(Object.entries(options).map(([key, value]) => [key, String(value)])).toString();
 
-export const listScenes = (page: number, words: string): Promise<ScenePage> =>
-  json(`/v1/scenes?${query({ page, ...(words ? { q: words } : {}) })}`);
+export const listScenes = (page: number): Promise<ScenePage> =>
+  json(`/v1/scenes?${query({ page })}`);
 
 export const getScene = (id: string): Promise<SceneFacts> => json(scenePath(id));
 
+export const getModels = (id: string): Promise<ModelPlaces> => json(`${scenePath(id)}/models`);
+
 export const getSource = async (id: string): Promise<string> => (await request(`${scenePath(id)}/source`)).text();
 
-/** Facts about a document, beside the files of the scene `base`. */
-export const validate = (xml: string, base: string | null): Promise<SceneFacts> =>
-  json(`/v1/validate${base === null ? '' : `?${query({ base })}`}`, {
-    method: 'POST', body: xml, headers: { 'Content-Type': 'application/xml' },
-  });
+/** Facts about a document that is sent, and the places of its models. */
+export const validate = (body: RequestInit, base: string | null): Promise<SceneFacts & Partial<ModelPlaces>> =>
+  json(`/v1/validate?${query(base === null ? {} : { base })}`, { method: 'POST', ...body });
 
 /** A finding as a sentence with its place. */
 export function sentence(finding: Finding): string {

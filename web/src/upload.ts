@@ -2,10 +2,13 @@
 import { signal } from '@preact/signals';
 import { Problem, query, request, type Finding, type SceneFacts } from './api.ts';
 import { scenePlace } from './router.ts';
-import { bundleOf, type NamedFile } from './scene/bundle.ts';
+import { bundleOf, type Loose, type NamedFile } from './scene/bundle.ts';
 
 export const uploading = signal<string>('');
 export const uploadProblem = signal<{ title: string; findings: Finding[] } | null>(null);
+
+/** A scene that the server does not keep, because it is broken or keeps none: it is mended here. */
+export const local = signal<{ name: string; loose: Loose; text: string; count: number } | null>(null);
 
 const fault = (title: string, message: string): void => {
   uploadProblem.value = { title, findings: [{ code: '', severity: 'error', message }] };
@@ -19,12 +22,17 @@ export async function openFiles(files: readonly NamedFile[]): Promise<void> {
   uploading.value = bundle.name;
   uploadProblem.value = null;
   try {
-    const response = await request(`/v1/scenes?${query({ public: 0 })}`, { method: 'POST', ...(await bundle.body()) });
+    const response = await request(`/v1/scenes?${query({ public: 0 })}`, { method: 'POST', ...bundle.body() });
     const scene = (await response.json()) as SceneFacts;
     location.hash = scenePlace(scene.id);
   } catch (problem) {
     const findings = problem instanceof Problem ? problem.findings : [];
-    if (findings.length > 0) uploadProblem.value = { title: `“${bundle.name}” has problems`, findings };
+    const main = bundle.loose?.files.find(({ path }) => path === bundle.loose?.main);
+    if (bundle.loose && main && problem instanceof Problem && [400, 401, 403, 422].includes(problem.status)) {
+      local.value = { name: bundle.name, loose: bundle.loose, text: await main.file.text(), count: (local.value?.count ?? 0) + 1 };
+      if (problem.status === 401 || problem.status === 403) uploadProblem.value = { title: 'Shown, but not stored', findings };
+      location.hash = '#/new';
+    } else if (findings.length > 0) uploadProblem.value = { title: `“${bundle.name}” has problems`, findings };
     else fault(`“${bundle.name}” was not sent`, 'The server does not answer');
   } finally {
     uploading.value = '';

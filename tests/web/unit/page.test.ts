@@ -41,11 +41,11 @@ test('bundles: litter is left out, a mesh gets a scene, too much is told', async
   const file = (path: string, size = 1) => ({ path, file: new File([new Uint8Array(size)], path) });
   const bundle = bundleOf([file('f/s.xml'), file('f/t/x.png'), file('f/.DS_Store'), file('f/__MACOSX/y')]);
   assert.ok('body' in bundle);
-  const { body } = await bundle.body();
+  const { body } = bundle.body();
   assert.deepEqual([...(body as FormData)].map(([name, value]) => [name, (value as File).name]), [['scene', 's.xml'], ['file', 't/x.png']]);
   const mesh = bundleOf([file('hare.ply')]);
   assert.ok('body' in mesh);
-  const scene = ((await mesh.body()).body as FormData).get('scene') as File;
+  const scene = (mesh.body().body as FormData).get('scene') as File;
   assert.match(await scene.text(), /<model file="hare.ply"\/>/);
   assert.ok('message' in bundleOf([file('x.pdf')]));
   assert.ok('message' in bundleOf([file('s.xml', 17 * 1024 * 1024)]));

@@ -6,7 +6,23 @@ export interface NamedFile {
 
 export interface Bundle {
   name: string;
-  body(): Promise<{ body: BodyInit; headers?: Record<string, string> }>;
+  loose: Loose | null; // null: an archive, which only the server opens
+  body(): { body: BodyInit; headers?: Record<string, string> };
+}
+
+/** A document and the files beside it. */
+export interface Loose {
+  main: string; // the document's path
+  files: { path: string; file: Blob }[]; // the document among them
+}
+
+/** The multipart body of a document, which may have been edited, and its files. */
+export function formOf({ main, files }: Loose, text?: string): FormData {
+  const form = new FormData();
+  for (const { path, file } of files)
+    if (path !== main) form.append('file', file, path);
+    else form.append('scene', text === undefined ? file : new Blob([text], { type: 'application/xml' }), path);
+  return form;
 }
 
 const maxFiles = 256; // the service's bound on parts
@@ -15,7 +31,8 @@ const maxBytes = 16 * 1024 * 1024;
 const meshEndings = /\.(3d|obj|ply|tri|patch)$/i;
 const archives: [RegExp, string][] = [
   [/\.zip$/i, 'application/zip'],
-  [/\.(tar|tar\.gz|tgz|tar\.xz|tar\.bz2)$/i, 'application/x-tar'],
+  [/\.tar$/i, 'application/x-tar'],
+  [/\.(tar\.gz|tgz)$/i, 'application/gzip'],
 ];
 // What operating systems and tools leave behind in folders.
 const litter = /(^|\/)(\.[^/]*|__MACOSX|Thumbs\.db|desktop\.ini|node_modules)(\/|$)/i;
@@ -63,7 +80,7 @@ export function bundleOf(files: readonly NamedFile[]): Bundle | { message: strin
   const bytes = kept.reduce((sum, { file }) => sum + file.size, 0);
   if (bytes > maxBytes) return { message: `These files are ${(bytes / 1048576).toFixed(1)} MiB; the server takes 16 MiB` };
   if (only && archive)
-    return { name: only.path, body: async () => ({ body: only.file, headers: { 'Content-Type': archive[1] } }) };
+    return { name: only.path, loose: null, body: () => ({ body: only.file, headers: { 'Content-Type': archive[1] } }) };
   if (kept.length > maxFiles) return { message: `These are ${kept.length} files; the server takes ${maxFiles} at once` };
   const paths = stripCommonFolder(kept.map(({ path }) => path));
   const parts = kept.map(({ file }, i) => ({ path: paths[i] as string, file: file as Blob }));
@@ -74,13 +91,6 @@ export function bundleOf(files: readonly NamedFile[]): Bundle | { message: strin
     main = 'scene.xml';
     parts.push({ path: main, file: new Blob([meshScene(mesh)], { type: 'application/xml' }) });
   }
-  const scene = main;
-  return {
-    name: kept[0]?.path.split('/')[0] ?? scene,
-    body: async () => {
-      const form = new FormData();
-      for (const { path, file } of parts) form.append(path === scene ? 'scene' : 'file', file, path);
-      return { body: form };
-    },
-  };
+  const loose = { main, files: parts };
+  return { name: kept[0]?.path.split('/')[0] ?? main, loose, body: () => ({ body: formOf(loose) }) };
 }

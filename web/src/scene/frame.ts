@@ -1,5 +1,6 @@
 // One picture as it came from the server.
 import type { Finding, Options } from '../api.ts';
+import { formOf, type Loose } from './bundle.ts';
 import { Problem, query, request } from '../api.ts';
 import type { LookAt } from '../maths/camera.ts';
 
@@ -36,7 +37,12 @@ function headerJson<T>(response: Response, name: string, otherwise: T): T {
 export interface Origin {
   id: string | null; // of the stored scene; null: the text alone
   text: string | null; // the edited document; null: as it is stored
+  loose: Loose | null; // files of this browser that the document names
 }
+
+/** The body that sends the document. */
+export const bodyOf = ({ text, loose }: Origin): RequestInit =>
+  loose ? { body: formOf(loose, text ?? '') } : { body: text ?? '', headers: { 'Content-Type': 'application/xml' } };
 
 const session = `p${crypto.getRandomValues(new Uint32Array(2)).join('-')}`;
 
@@ -53,7 +59,7 @@ export function pictureUrl(origin: Origin, options: Options): string {
 export async function fetchPicture(origin: Origin, options: Options, signal?: AbortSignal): Promise<Response | undefined> {
   const init: RequestInit = signal ? { signal } : {};
   if (origin.text !== null || origin.id === null)
-    Object.assign(init, { method: 'POST', body: origin.text ?? '', headers: { 'Content-Type': 'application/xml' } });
+    Object.assign(init, { method: 'POST' }, bodyOf(origin));
   try {
     return await request(pictureUrl(origin, options), init);
   } catch (fault) {

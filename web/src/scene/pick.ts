@@ -1,15 +1,18 @@
 // Which model a pixel shows: a picture of model numbers, and the list of their lines.
-import type { SceneFacts } from '../api.ts';
+import { getModels, type ModelPlaces } from '../api.ts';
 import type { Viewer } from './viewer.ts';
 import { fetchPicture, type Origin } from './frame.ts';
 import { say } from '../views/ui.tsx';
 
-type NumberedModel = NonNullable<SceneFacts['models']>[number];
-
 /** Red, green and blue are the bytes of the number; 0 is nothing. */
 export const numberOfPixel = (r: number, g: number, b: number): number => r * 65536 + g * 256 + b;
 
-const modelsOf = async (viewer: Viewer): Promise<NumberedModel[]> => (await viewer.validated())?.models ?? [];
+/** The places of the models of the document on show; kept until it changes. */
+async function placesOf(viewer: Viewer, origin: Origin): Promise<ModelPlaces> {
+  if (origin.text === null && viewer.id !== null) return (viewer.places ??= await getModels(viewer.id));
+  const { models = [], copies = [] } = (await viewer.validated()) ?? {};
+  return { models, copies };
+}
 
 /** The number at a place of the stage, in CSS pixels. */
 async function numberAt(viewer: Viewer, origin: Origin, x: number, y: number): Promise<number> {
@@ -35,10 +38,11 @@ export async function pickModel(viewer: Viewer, x: number, y: number): Promise<v
   try {
     const origin = viewer.origin();
     const [number] = await Promise.all([numberAt(viewer, origin, x, y), viewer.loadText()]);
-    const model = number > 0 ? (await modelsOf(viewer)).find((one) => one.id === number) : undefined;
+    const places = number > 0 ? await placesOf(viewer, origin) : null;
+    const model = places?.models[places.copies[number - 1] ?? -1];
     if (number > 0 && !model) say(`Model ${number} of this scene has no place in the document.`);
     viewer.picked.value = model?.line ? { number, line: model.line } : null;
-    if (model?.line) viewer.reveal.value = { line: model.line, column: model.column ?? 1 };
+    if (model?.line) viewer.reveal.value = { line: model.line, column: model.column };
   } catch (fault) {
     viewer.report(fault);
   }

@@ -1,13 +1,14 @@
 // An edited scene becomes a scene of its own on the server: unlisted, with a link to share.
 import { query, request, type SceneFacts } from '../api.ts';
 import { formatView, scenePlace } from '../router.ts';
+import { bodyOf } from './frame.ts';
 import type { Viewer } from './viewer.ts';
 
 export async function storeEdited(viewer: Viewer): Promise<void> {
   try {
     const base: Record<string, string> = viewer.id === null ? {} : { base: viewer.id };
     const response = await request(`/v1/scenes?${query(base)}`, {
-      method: 'POST', body: viewer.text.value ?? '', headers: { 'Content-Type': 'application/xml' },
+      method: 'POST', ...bodyOf({ ...viewer.origin(), text: viewer.text.value }),
     });
     const scene = (await response.json()) as SceneFacts;
     const view = {

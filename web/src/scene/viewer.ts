@@ -2,16 +2,18 @@
 // the view asks the frame loop for pictures.
 import { batch, computed, signal } from '@preact/signals';
 import {
-  findingsOf, getScene, getSource, orbitOptions, Problem, validate, type Finding, type Options, type SceneFacts,
+  findingsOf, getScene, getSource, orbitOptions, Problem, validate, type Finding, type ModelPlaces, type Options,
+  type SceneFacts,
 } from '../api.ts';
 import { FrameLoop, type Shown } from '../frames/loop.ts';
 import { FrameRate, type Latency } from '../frames/timing.ts';
 import { fitFov, orbitOf, walkOf, walkTarget, type LookAt, type Orbit, type Walk } from '../maths/camera.ts';
 import { clamp, formatVec } from '../maths/vec.ts';
 import { formatView, replaceAddress, scenePlace, type ViewLink } from '../router.ts';
+import type { Loose } from './bundle.ts';
 import { SceneClock } from './clock.ts';
 import { hashText, loadDraft, saveDraft } from './drafts.ts';
-import { decodeFrame, fetchPicture, turnOf, type Frame, type Origin } from './frame.ts';
+import { bodyOf, decodeFrame, fetchPicture, turnOf, type Frame, type Origin } from './frame.ts';
 
 export type Quality = 'fast' | 'standard' | 'reference';
 
@@ -52,6 +54,7 @@ export class Viewer {
   readonly reveal = signal<{ line: number; column: number } | null>(null); // a place the editor goes to
   readonly edited = computed(() => this.text.value !== null && this.text.value !== this.original.value);
   readonly clock: SceneClock;
+  places: ModelPlaces | null = null; // of the stored document
   home: LookAt | null = null;
   canvas: Canvas | null = null;
 
@@ -62,9 +65,9 @@ export class Viewer {
   private typeTimer: ReturnType<typeof setTimeout> | undefined;
   private latest: Frame | null = null;
   private latestSeq = 0;
-  private known: { text: string; facts: SceneFacts } | null = null; // of the edited document
+  private known: { text: string; facts: SceneFacts & Partial<ModelPlaces> } | null = null; // of the edited document
 
-  constructor(readonly id: string | null) {
+  constructor(readonly id: string | null, private readonly loose: Loose | null = null) {
     this.clock = new SceneClock(() => this.moved(), () => {
       this.loop.hold(this.turning.value);
       this.loop.settle();
@@ -88,7 +91,7 @@ export class Viewer {
 
   /** Reads the facts, restores edits and view, and asks for the first picture. */
   async open(link: ViewLink, template: string): Promise<void> {
-    const draft = loadDraft(this.id);
+    const draft = this.loose ? null : loadDraft(this.id);
     batch(() => {
       this.orbit.value = link.orbit;
       this.walk.value = link.walk;
@@ -180,11 +183,11 @@ export class Viewer {
   }
 
   /** What the service knows of the document as it is edited now; null where it cannot be read. */
-  async validated(): Promise<SceneFacts | null> {
-    const { id, text } = this.origin();
+  async validated(): Promise<(SceneFacts & Partial<ModelPlaces>) | null> {
+    const origin = this.origin(), { text } = origin;
     if (text === null) return this.facts.value;
     if (this.known?.text === text) return this.known.facts;
-    const facts = await validate(text, id).catch(() => null); // what is wrong comes with the picture
+    const facts = await validate(bodyOf(origin), this.id).catch(() => null); // what is wrong comes with the picture
     if (facts) this.known = { text, facts };
     return facts;
   }
@@ -221,7 +224,7 @@ export class Viewer {
   }
 
   origin(): Origin {
-    return { id: this.id, text: this.id === null || this.edited.value ? this.text.value : null };
+    return { id: this.id, text: this.id === null || this.edited.value ? this.text.value : null, loose: this.loose };
   }
 
   /** What the full picture is asked with: all but format. */

@@ -3,7 +3,7 @@ import { signal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 import { place } from '../router.ts';
 import { dark, toggleTheme } from '../theme.ts';
-import { filesOf, openFiles, uploading, uploadProblem } from '../upload.ts';
+import { filesOf, local, openFiles, uploading, uploadProblem } from '../upload.ts';
 import { Gallery } from './gallery.tsx';
 import { Mark } from './icons.tsx';
 import { Findings, Toast, Tool } from './ui.tsx';
@@ -85,7 +85,7 @@ export function App() {
       <Head />
       {where.page === 'gallery' && <Gallery />}
       {(where.page === 'scene' || where.page === 'new') && (
-        <ViewerPage key={id ?? ''} id={id} view={where.page === 'scene' ? where.view : new URLSearchParams()} />
+        <ViewerPage key={id ?? `new ${local.value?.count ?? 0}`} id={id} view={where.page === 'scene' ? where.view : new URLSearchParams()} />
       )}
       <UploadNote />
       <Toast />

@@ -30,7 +30,7 @@ async function load(page: number): Promise<void> {
   const number = ++request, text = words.value.trim();
   loading.value = true;
   try {
-    const answer = await listScenes(page, text);
+    const answer = await listScenes(page);
     if (number !== request) return;
     const before = page > 1 && listing.value ? listing.value.scenes : [];
     const scenes = [...before, ...answer.scenes.filter((scene) => matches(scene, text))];

@@ -3,6 +3,7 @@ import { signal } from '@preact/signals';
 import { lazyView } from './lazy.tsx';
 import { useEffect, useMemo } from 'preact/hooks';
 import { parseView } from '../router.ts';
+import { local } from '../upload.ts';
 import { Viewer } from '../scene/viewer.ts';
 import { newScene } from '../scene/template.ts';
 import { recall, remember } from '../storage.ts';
@@ -54,21 +55,23 @@ const Inspector = lazyView(() => import('./inspector.tsx').then((module) => modu
 const Editor = lazyView(() => import('./editor.tsx').then((module) => module.Editor), 'the editor');
 
 export function ViewerPage({ id, view }: { id: string | null; view: URLSearchParams }) {
-  const viewer = useMemo(() => new Viewer(id), [id]);
+  const own = id === null ? local.peek() : null;
+  const viewer = useMemo(() => new Viewer(id, own?.loose), [id]);
   useEffect(() => {
     const kept = recall('panel') as PanelName | null;
     const wide = matchMedia('(min-width: 60rem)').matches;
     panel.value = id === null ? 'xml' : wide && kept ? kept : 'none';
-    void viewer.open(parseView(view), newScene);
+    void viewer.open(parseView(view), own?.text ?? newScene);
     const keep = (): void => viewer.flushDraft();
     addEventListener('pagehide', keep);
     return () => {
       removeEventListener('pagehide', keep);
       viewer.close();
+      if (own && local.peek() === own) local.value = null;
     };
   }, [viewer]);
   const facts = viewer.facts.value;
-  const title = facts?.title ?? (id === null ? 'Your scene' : id);
+  const title = facts?.title ?? (id ?? own?.name ?? 'Your scene');
   useEffect(() => {
     document.title = `${title} · Farol`;
   }, [title]);

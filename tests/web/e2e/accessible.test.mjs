@@ -1,0 +1,58 @@
+// axe-core over every view, light and dark, wide and narrow; and that nothing is wider than a phone.
+import assert from 'node:assert/strict';
+import { after, before, test } from 'node:test';
+import { axePath, launch, openPage, settled, startServer } from './fixture.mjs';
+
+let server, browser;
+before(async () => {
+  [server, browser] = await Promise.all([startServer(), launch()]);
+});
+after(async () => {
+  await browser?.close();
+  await server?.stop();
+});
+
+const views = {
+  gallery: { hash: '#/', ready: (view) => view.page.waitForSelector('.card:not(.ghost)') },
+  viewer: { hash: '#/scene/torch', ready: settled },
+  inspector: {
+    hash: '#/scene/torch', async ready(view) {
+      await settled(view);
+      await view.page.getByRole('button', { name: 'Panel' }).click();
+      await view.page.getByRole('tab', { name: 'Inspect' }).click();
+      await view.page.locator('.parts button').first().click();
+    },
+  },
+  editor: { hash: '#/new', ready: (view) => view.page.locator('.cm-content').waitFor() },
+  grade: { hash: '#/grade', ready: (view) => view.page.locator('main h1').waitFor() },
+};
+const looks = [{ colorScheme: 'light', viewport: { width: 1280, height: 800 } }, { colorScheme: 'dark', viewport: { width: 360, height: 740 } }];
+
+for (const [name, { hash, ready }] of Object.entries(views))
+  test(`no serious finding of axe: ${name}`, async () => {
+    for (const look of looks) {
+      // The page's policy keeps foreign scripts out; axe is one.
+      const view = await openPage(browser, `${server.url}/${hash}`, { ...look, bypassCSP: true });
+      await ready(view);
+      await view.page.addScriptTag({ path: axePath });
+      const { violations } = await view.page.evaluate(() => window.axe.run(document, { resultTypes: ['violations'] }));
+      const serious = violations.filter((one) => ['serious', 'critical'].includes(one.impact));
+      assert.deepEqual(serious.map((one) => `${one.id}: ${one.nodes.map((node) => node.target.join(' ')).slice(0, 4).join('; ')}`), [], `${name}, ${look.colorScheme}`);
+      const width = await view.page.evaluate(() => document.documentElement.scrollWidth);
+      assert.ok(width <= look.viewport.width, `${name} is ${width} px wide at ${look.viewport.width}`);
+      await view.close();
+    }
+  });
+
+test('everything is reached by the keyboard', async () => {
+  const view = await openPage(browser, `${server.url}/#/scene/torch`);
+  await settled(view);
+  const reached = [];
+  for (let i = 0; i < 40; ++i) {
+    await view.page.keyboard.press('Tab');
+    reached.push(await view.page.evaluate(() => document.activeElement?.getAttribute('aria-label') ?? document.activeElement?.textContent ?? ''));
+  }
+  for (const wanted of ['Reset the view', 'Walk', 'fast', 'Download PNG', 'Panel']) assert.ok(reached.includes(wanted), `${wanted} is not among ${reached}`);
+  assert.ok(reached.some((label) => label.startsWith('Torch. Drag or arrow keys')), reached.join());
+  await view.close();
+});

@@ -1,0 +1,127 @@
+// A server on a free port, a browser, and how the tests look at the page.
+import assert from 'node:assert/strict';
+import { spawn } from 'node:child_process';
+import { existsSync } from 'node:fs';
+import http from 'node:http';
+import { createRequire } from 'node:module';
+import { dirname, join } from 'node:path';
+import { fileURLToPath } from 'node:url';
+
+export const root = join(dirname(fileURLToPath(import.meta.url)), '../../..');
+const require = createRequire(join(root, 'build/web/package.json'));
+export const { chromium } = require('playwright-core');
+export const axePath = require.resolve('axe-core/axe.min.js');
+
+const binary = process.env.FAROL_BINARY ?? join(root, 'build/release/farol');
+
+/** A daemon of its own; `stop` ends it. */
+export async function startServer({ scenes = join(root, 'scenes'), args = [] } = {}) {
+  const child = spawn(binary, ['serve', '--port', '0', '--scenes', scenes, '--workers', '2', '--wait', '30', '--deadline', '60', ...args], { stdio: ['ignore', 'pipe', 'pipe'] });
+  let out = '';
+  const url = await new Promise((done, failed) => {
+    const timer = setTimeout(() => failed(new Error(`no server after 60 s: ${out}`)), 60000);
+    const read = (chunk) => {
+      out += chunk;
+      const found = /listening on (http:\S+)/.exec(out);
+      if (!found) return;
+      clearTimeout(timer);
+      done(found[1]);
+    };
+    child.stdout.on('data', read);
+    child.stderr.on('data', read);
+    child.on('exit', (code) => failed(new Error(`the server ended with ${code}: ${out}`)));
+  });
+  // The first pictures compile shaders: that is nobody's latency here.
+  await fetch(`${url}/readyz`);
+  return { url, stop: () => new Promise((done) => (child.on('exit', done), child.kill('SIGTERM'))) };
+}
+
+export const launch = () => chromium.launch({
+  executablePath: process.env.FAROL_CHROMIUM ?? '/usr/bin/chromium',
+  args: ['--no-sandbox', '--disable-gpu', '--force-color-profile=srgb'],
+});
+
+/** Forwards to a server; `delayOf` says how many ms an answer is held back. */
+export function startProxy(target, delayOf) {
+  const server = http.createServer((request, response) => {
+    const ahead = http.request(target + request.url, { method: request.method, headers: request.headers }, (answer) => {
+      const chunks = [];
+      answer.on('data', (chunk) => chunks.push(chunk));
+      answer.on('end', () => setTimeout(() => {
+        response.writeHead(answer.statusCode, answer.headers);
+        response.end(Buffer.concat(chunks));
+      }, delayOf(new URL(request.url, target))));
+    });
+    ahead.on('error', () => response.destroy());
+    request.pipe(ahead);
+  });
+  return new Promise((done) => server.listen(0, '127.0.0.1', () => done({
+    url: `http://127.0.0.1:${server.address().port}`,
+    stop: () => new Promise((closed) => (server.closeAllConnections(), server.close(closed))),
+  })));
+}
+
+/** A page with what it asked for; an error in its script fails the test that closes it. */
+export async function openPage(browser, url, options = {}) {
+  const context = await browser.newContext({ viewport: { width: 900, height: 620 }, reducedMotion: 'reduce', ...options });
+  const page = await context.newPage();
+  const faults = [], pictures = [];
+  page.on('pageerror', (error) => faults.push(error.message));
+  page.on('console', (message) => {
+    if (message.type() === 'error' && /Content Security Policy|Uncaught/.test(message.text())) faults.push(message.text());
+  });
+  page.on('request', (request) => {
+    const parsed = new URL(request.url());
+    if (!/\/image$|\/v1\/render$/.test(parsed.pathname)) return;
+    pictures.push({ path: parsed.pathname, method: request.method(), url: request.url(), ...Object.fromEntries(parsed.searchParams) });
+  });
+  await page.goto(url);
+  return {
+    page, context, pictures, faults,
+    moving: () => pictures.filter((one) => one.scale !== undefined),
+    full: () => pictures.filter((one) => one.scale === undefined && one.layer === undefined),
+    async close() {
+      await context.close();
+      assert.deepEqual(faults, []);
+    },
+  };
+}
+
+/** Until the picture at rest is on show: the last one asked for, and nothing newer for a while. */
+export async function settled(view) {
+  await view.page.waitForSelector('.stage[aria-busy=false]', { timeout: 60000 });
+  const until = Date.now() + 60000;
+  for (let calm = 0, last = -1; calm < 3;) {
+    assert.ok(Date.now() < until, 'the picture never came to rest');
+    await view.page.waitForTimeout(120);
+    const seq = Number(await view.page.locator('.stage canvas').getAttribute('data-seq'));
+    const full = view.full().at(-1);
+    const still = full && seq === Number(full.seq) && seq === last && view.pictures.filter((one) => Number(one.seq) > seq).length === 0;
+    calm = still ? calm + 1 : 0;
+    last = seq;
+  }
+}
+
+/** What the canvas shows, as a digest and a size; and the same of a picture at an address. */
+export const canvasPixels = (page) => page.evaluate(async () => {
+  const canvas = document.querySelector('.stage canvas');
+  const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+  const digest = await crypto.subtle.digest('SHA-256', data);
+  return { width: canvas.width, height: canvas.height, digest: [...new Uint8Array(digest)].join() };
+});
+
+export const picturePixels = (page, url) => page.evaluate(async (address) => {
+  const response = await fetch(address, { cache: 'no-store' });
+  if (!response.ok) throw new Error(`${response.status} ${await response.text()}`);
+  const bitmap = await createImageBitmap(await response.blob());
+  const canvas = document.createElement('canvas');
+  [canvas.width, canvas.height] = [bitmap.width, bitmap.height];
+  const context = canvas.getContext('2d', { alpha: false });
+  context.drawImage(bitmap, 0, 0);
+  const { data } = context.getImageData(0, 0, canvas.width, canvas.height);
+  const digest = await crypto.subtle.digest('SHA-256', data);
+  return { width: canvas.width, height: canvas.height, digest: [...new Uint8Array(digest)].join() };
+}, url);
+
+export const close = (actual, expected, tolerance, what) =>
+  assert.ok(Math.abs(Number(actual) - expected) <= tolerance, `${what}: ${actual} is not ${expected}`);

@@ -35,6 +35,8 @@ bool isInside(const fs::path& path, const fs::path& root) {
     return rootEnd == root.end() && pathAt != path.end();
 }
 
+std::string beneath(const std::string& root) { return root == "/" ? root : root + "/"; }
+
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
 std::string lowered(std::string text) {
@@ -123,6 +125,18 @@ FolderAssets::FolderAssets(std::string root) {
 
 std::optional<std::string> FolderAssets::resolve(const std::string& path) const {
     if (root_.empty() || !isSafePath(path)) return std::nullopt;
+    // A path without links is its own real path: one look a part, where canonical() takes one for
+    // each part of the root too.
+    const std::string plain = beneath(root_) + path;
+    for (std::size_t end = root_.size();;) {
+        end = std::min(plain.find('/', end + 1), plain.size());
+        struct stat facts {};
+        if (lstat(plain.substr(0, end).c_str(), &facts) != 0) return std::nullopt;
+        if (S_ISLNK(facts.st_mode)) break;
+        if (end < plain.size()) continue;
+        if (!S_ISREG(facts.st_mode)) return std::nullopt;
+        return plain;
+    }
     std::error_code failed;
     const fs::path real = fs::canonical(fs::path(root_) / path, failed);
     if (failed || !isInside(real, root_)) return std::nullopt;
@@ -138,8 +152,11 @@ std::vector<std::string> FolderAssets::list() const {
                                         failed);
     const fs::recursive_directory_iterator end;
     for (int visited = 0; !failed && at != end && visited < kMaxVisited; ++visited) {
-        const std::string path = at->path().lexically_relative(root_).generic_string();
-        if (resolve(path)) paths.push_back(path);
+        // The folders on the way are no links: those are not followed.
+        const fs::file_type type = at->symlink_status(failed).type();
+        const std::string path = at->path().native().substr(beneath(root_).size());
+        const bool isFile = type == fs::file_type::regular && isSafePath(path);
+        if (isFile || (type == fs::file_type::symlink && resolve(path))) paths.push_back(path);
         if (paths.size() == kMaxListed) break;
         at.increment(failed);
     }

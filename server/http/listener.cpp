@@ -4,6 +4,7 @@
 #include <netdb.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
+#include <poll.h>
 #include <sys/epoll.h>
 #include <sys/eventfd.h>
 #include <sys/socket.h>
@@ -23,6 +24,7 @@ namespace {
 
 constexpr int kBacklog = 511;
 constexpr int kSweepMs = 500;
+constexpr int kNextMs = 2;
 
 std::string errnoText(int code) { return std::generic_category().message(code); }
 
@@ -269,6 +271,22 @@ void Listener::dropAll() {
     clients_.clear();
 }
 
+// The next request of a client that asks one after the other comes within a moment: taking it here
+// saves two wake-ups. Nobody must wait for this thread meanwhile, and the head must be whole.
+bool Listener::nextIsHere(int fd) {
+    {
+        const std::lock_guard lock(mutex_);
+        if (!queue_.empty()) return false;
+    }
+    pollfd wait{fd, POLLIN, 0};
+    if (::poll(&wait, 1, kNextMs) != 1 || wait.revents != POLLIN) return false;
+    std::array<char, kMaxHead> bytes;
+    const ssize_t got = ::recv(fd, bytes.data(), bytes.size(), MSG_PEEK | MSG_DONTWAIT);
+    return got > 0 &&
+           std::string_view(bytes.data(), static_cast<std::size_t>(got)).find("\r\n\r\n") !=
+               std::string_view::npos;
+}
+
 void Listener::serveLoop() {
     Connection connection(handler_, options_.timeouts);
     for (;;) {
@@ -282,7 +300,10 @@ void Listener::serveLoop() {
             queue_.pop_front();
             remoteAddress = clients_[fd].remoteAddress;
         }
-        const bool keep = connection.serve(fd, remoteAddress, [this] { return stopping_.load(); });
+        bool keep = true;
+        do {
+            keep = connection.serve(fd, remoteAddress, [this] { return stopping_.load(); });
+        } while (keep && !stopping_ && nextIsHere(fd));
         if (keep && !stopping_)
             park(fd);
         else

@@ -52,6 +52,7 @@ class Listener {
     void acceptLoop();
     void acceptAll();
     void serveLoop();
+    bool nextIsHere(int fd);
     void look(int fd, bool ended);
     void watch(int fd);
     void activate(int fd);

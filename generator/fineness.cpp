@@ -7,9 +7,20 @@
 namespace farol::generator {
 
 double circleDivisions(double radius, double error, const Fineness& fineness) {
-    const double depth = fineness.balanced ? 2.0 * error : error;
-    const double half = std::sqrt(std::min(1.0, depth / (2.0 * radius)));
+    const double share = error / radius;
+    // Balanced, (1 - c) / (1 + c) <= share, c the cosine of half a division.
+    const double depth = fineness.balanced ? 2.0 * share / (1.0 + share) : share;
+    const double half = std::sqrt(std::min(1.0, depth / 2.0));
     const double divisions = std::ceil(std::numbers::pi / (2.0 * std::asin(half)));
+    return ladder(std::clamp(divisions, fineness.fullTurn, kMostDivisions));
+}
+
+double sphereDivisions(double radius, double error, const Fineness& fineness) {
+    const double share = std::min(1.0, error / radius);
+    // The middle of a facet's longest side is nearest, at sqrt(cos a) for divisions of a.
+    const double loss =
+        fineness.balanced ? 4.0 * share / ((1.0 + share) * (1.0 + share)) : share * (2.0 - share);
+    const double divisions = std::ceil(std::numbers::pi / std::asin(std::sqrt(loss / 2.0)));
     return ladder(std::clamp(divisions, fineness.fullTurn, kMostDivisions));
 }
 

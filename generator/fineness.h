@@ -24,6 +24,10 @@ inline constexpr double kMostDivisions = 1024;
 /// With fineness.balanced, of a circle that will be scaled so as to err by `error` to both sides.
 double circleDivisions(double radius, double error, const Fineness& fineness);
 
+/// Divisions of a full turn of a sphere, half as many from pole to pole, whose facets are at most
+/// `error` from it; as circleDivisions.
+double sphereDivisions(double radius, double error, const Fineness& fineness);
+
 /// The next of 1 2 3 4 6 8 12 16 20 24 28 32 40 48 56 64 80 ... kMostDivisions: few levels, so that
 /// a mesh is found again while the camera moves. From 8 on they are multiples of 4: bounding boxes
 /// stay exact.

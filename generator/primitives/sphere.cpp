@@ -61,8 +61,7 @@ Entry sphereEntry() {
             },
             nullptr,
             [](const Call& call, const std::string&, const Fineness& fineness) {
-                // Half of the error to either direction.
-                const double slices = circleDivisions(call.length(0), fineness.error / 2, fineness);
+                const double slices = sphereDivisions(call.length(0), fineness.error, fineness);
                 return std::vector<double>{slices, slices / 2};
             },
             [](const Call& call, scene::UvLayout uv) {

@@ -1,6 +1,8 @@
 #include "render/instances.h"
 
+#include <map>
 #include <set>
+#include <unordered_map>
 #include <variant>
 
 #include "scene/animation.h"
@@ -18,6 +20,7 @@ class Collector {
         for (const scene::Light& light : scene.lights)
             list_.lightSets[0].push_back(place(light, glm::dmat4(1.0)));
         for (const scene::Group& group : scene.groups) visit(group, glm::dmat4(1.0), 0);
+        list_.tree = BoundsTree(boxes_);
         return std::move(list_);
     }
 
@@ -59,21 +62,57 @@ class Collector {
                 throw Error("limit.instances",
                             "the scene has more than " + std::to_string(kMaxInstances) + " models",
                             model.where);
-            Instance instance{&model, meshes_.get(model, assets_), worldFromGroup,
-                              generator::isOpen(model), lightSet};
-            if (!instance.mesh->findings.empty() && told_.insert(instance.mesh->id).second)
-                list_.findings.insert(list_.findings.end(), instance.mesh->findings.begin(),
-                                      instance.mesh->findings.end());
-            const Box& box = instance.mesh->bounds;
-            if (!box.empty())
-                for (int corner = 0; corner < 8; ++corner)
-                    list_.bounds.add(glm::dvec3(
-                        worldFromGroup * glm::dvec4(corner & 1 ? box.max.x : box.min.x,
-                                                    corner & 2 ? box.max.y : box.min.y,
-                                                    corner & 4 ? box.max.z : box.min.z, 1.0)));
-            list_.instances.push_back(std::move(instance));
+            const Known& known = know(model);
+            const Box bounds = boundsOf(known.mesh->bounds, worldFromGroup);
+            if (!bounds.empty()) {
+                list_.bounds.add(bounds.min);
+                list_.bounds.add(bounds.max);
+            }
+            // Nothing to draw where a matrix of zeros leaves a point.
+            const bool nothing =
+                known.mesh->mesh.indices.empty() || glm::dmat3(worldFromGroup) == glm::dmat3(0.0);
+            boxes_.push_back(nothing ? Box{} : bounds);
+            list_.instances.push_back(
+                {&model, known.mesh, worldFromGroup, known.open, lightSet, known.texture});
         }
         for (const scene::Group& child : group.groups) visit(child, worldFromGroup, lightSet);
+    }
+
+    /// What does not depend on a model's place, found once for all copies of it.
+    struct Known {
+        std::shared_ptr<const MeshData> mesh;
+        bool open;
+        int texture;
+    };
+
+    const Known& know(const scene::Model& model) {
+        const auto found = known_.find(&model);
+        if (found != known_.end()) return found->second;
+        Known known{meshes_.get(model, assets_), generator::isOpen(model), textureOf(model)};
+        if (!known.mesh->findings.empty() && told_.insert(known.mesh->id).second)
+            list_.findings.insert(list_.findings.end(), known.mesh->findings.begin(),
+                                  known.mesh->findings.end());
+        return known_.emplace(&model, std::move(known)).first->second;
+    }
+
+    int textureOf(const scene::Model& model) {
+        if (!model.texture) return -1;
+        TextureRef ref = refOf(*model.texture, assets_);
+        const auto place = std::make_pair(ref.key, ref.filter);
+        const auto [at, added] = textures_.emplace(place, static_cast<int>(list_.textures.size()));
+        if (added) list_.textures.push_back(std::move(ref));
+        return at->second;
+    }
+
+    static Box boundsOf(const Box& box, const glm::dmat4& worldFromObject) {
+        Box bounds;
+        if (box.empty()) return bounds;
+        for (int corner = 0; corner < 8; ++corner)
+            bounds.add(
+                glm::dvec3(worldFromObject * glm::dvec4(corner & 1 ? box.max.x : box.min.x,
+                                                        corner & 2 ? box.max.y : box.min.y,
+                                                        corner & 4 ? box.max.z : box.min.z, 1.0)));
+        return bounds;
     }
 
     void addCurves(const scene::Group& group, glm::dmat4 worldFromLocal) {
@@ -101,7 +140,10 @@ class Collector {
     const scene::Assets& assets_;
     MeshLibrary& meshes_;
     InstanceList list_;
+    std::vector<Box> boxes_;        ///< of the instances, world space
     std::set<std::uint64_t> told_;  ///< meshes whose findings are listed
+    std::unordered_map<const scene::Model*, Known> known_;
+    std::map<std::pair<std::string, scene::Filter>, int> textures_;
 };
 
 }  // namespace
@@ -109,6 +151,27 @@ class Collector {
 InstanceList collect(const scene::Scene& scene, double timeS, bool curves,
                      const scene::Assets& assets, MeshLibrary& meshes) {
     return Collector(timeS, curves, assets, meshes).run(scene);
+}
+
+Placed place(const scene::Scene& scene, double timeS, bool curves, const scene::Assets& assets,
+             MeshLibrary& meshes) {
+    Placed placed{collect(scene, timeS, curves, assets, meshes), std::nullopt};
+    if (scene.entity) placed.entity = collect(*scene.entity, timeS, false, assets, meshes);
+    return placed;
+}
+
+std::size_t bytesOf(const Placed& placed) {
+    // Besides itself an instance has its box, its place in the tree and a share of its nodes.
+    constexpr std::size_t kOne = sizeof(Instance) + 2 * sizeof(Box) + 16;
+    std::size_t bytes = 0;
+    std::set<std::uint64_t> counted;
+    const auto add = [&](const InstanceList& list) {
+        for (const Instance& one : list.instances)
+            bytes += kOne + (counted.insert(one.mesh->id).second ? bytesOf(*one.mesh) : 0);
+    };
+    add(placed.scene);
+    if (placed.entity) add(*placed.entity);
+    return bytes;
 }
 
 }  // namespace farol::render

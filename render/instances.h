@@ -3,7 +3,9 @@
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "render/bounds_tree.h"
 #include "render/mesh_library.h"
+#include "render/texture_ref.h"
 #include "scene/scene.h"
 
 namespace farol::render {
@@ -15,6 +17,7 @@ struct Instance {
     glm::dmat4 worldFromObject;
     bool open;     ///< its divisions are the renderer's to choose
     int lightSet;  ///< index into InstanceList::lightSets
+    int texture;   ///< index into InstanceList::textures, or -1
 };
 
 /// A light at its place: position and direction in world space (camera lights: eye space).
@@ -28,8 +31,11 @@ struct PlacedCurve {
     std::vector<glm::dvec3> points;
 };
 
+/// All that a scene holds at one time, whatever the camera: made once for all frames of it.
 struct InstanceList {
-    std::vector<Instance> instances;
+    std::vector<Instance> instances;  ///< in document order
+    BoundsTree tree;                  ///< of the instances, world space; those of no extent are out
+    std::vector<TextureRef> textures;
     std::vector<PlacedLight> lights;
     std::vector<std::vector<int>> lightSets;  ///< indices into lights; set 0: the scene's own
     std::vector<PlacedCurve> curves;
@@ -41,8 +47,22 @@ struct InstanceList {
 inline constexpr std::size_t kMaxInstances = 200'000;
 inline constexpr std::size_t kMaxLights = 512;
 
-/// Walks the groups at a time. Throws Error limit.* and as MeshLibrary::get does.
+/// Walks the groups at a time. Throws Error limit.* and as MeshLibrary::get does. The scene must
+/// outlive the list.
 InstanceList collect(const scene::Scene& scene, double timeS, bool curves,
                      const scene::Assets& assets, MeshLibrary& meshes);
+
+/// A scene and the entity before its third-person camera.
+struct Placed {
+    InstanceList scene;
+    std::optional<InstanceList> entity;
+};
+
+/// Both walked at a time, as collect does. `curves`: of the scene, not of the entity.
+Placed place(const scene::Scene& scene, double timeS, bool curves, const scene::Assets& assets,
+             MeshLibrary& meshes);
+
+/// About how much memory a placed scene keeps, bytes, with its meshes.
+std::size_t bytesOf(const Placed& placed);
 
 }  // namespace farol::render

@@ -1,7 +1,6 @@
 #include "render/mesh_library.h"
 
 #include <atomic>
-#include <cmath>
 #include <utility>
 
 namespace farol::render {
@@ -14,7 +13,7 @@ std::uint64_t nextId() {
 
 std::string keyOf(const scene::Model& model, const scene::Assets& assets) {
     std::string key = std::to_string(static_cast<int>(model.source.kind)) + '\n' +
-                      std::to_string(static_cast<int>(model.uv)) + '\n';
+                      std::to_string(static_cast<int>(model.uv)) + (model.autoLod ? "a\n" : "\n");
     for (const std::string& word : model.source.words) key += word + ' ';
     if (!model.source.path.empty())
         key += '\n' + model.source.path + '\n' + assets.version(model.source.path);
@@ -23,7 +22,13 @@ std::string keyOf(const scene::Model& model, const scene::Assets& assets) {
 
 }  // namespace
 
-std::shared_ptr<const MeshData> MeshLibrary::keep(const std::string& key, generator::Mesh mesh,
+std::size_t bytesOf(const MeshData& data) {
+    return data.mesh.positions.size() * sizeof(glm::vec3) +
+           data.mesh.normals.size() * sizeof(glm::vec3) + data.mesh.uvs.size() * sizeof(glm::vec2) +
+           data.mesh.indices.size() * sizeof(std::uint32_t);
+}
+
+std::shared_ptr<const MeshData> MeshLibrary::keep(const Key& key, generator::Mesh mesh,
                                                   Diagnostics findings,
                                                   const std::vector<std::string>& balanced) {
     auto data = std::make_shared<MeshData>();
@@ -35,30 +40,25 @@ std::shared_ptr<const MeshData> MeshLibrary::keep(const std::string& key, genera
     }
     data->findings = std::move(findings);
     for (const glm::vec3& position : data->mesh.positions) data->bounds.add(glm::dvec3(position));
-    const std::size_t bytes = data->mesh.positions.size() * sizeof(glm::vec3) +
-                              data->mesh.normals.size() * sizeof(glm::vec3) +
-                              data->mesh.uvs.size() * sizeof(glm::vec2) +
-                              data->mesh.indices.size() * sizeof(std::uint32_t);
+    const std::size_t bytes = bytesOf(*data);
     return meshes_.put(key, std::move(data), bytes);
 }
 
 std::shared_ptr<const MeshData> MeshLibrary::get(const scene::Model& model,
                                                  const scene::Assets& assets) {
-    const std::string key = keyOf(model, assets);
+    const Key key{keyOf(model, assets)};
     if (const auto* known = meshes_.find(key)) return *known;
     Diagnostics findings;
     generator::Mesh mesh = generator::load(model, assets, &findings);
     return keep(key, std::move(mesh), std::move(findings));
 }
 
-std::shared_ptr<const MeshData> MeshLibrary::get(const scene::Model& model,
+std::shared_ptr<const MeshData> MeshLibrary::get(const MeshData& coarse, const scene::Model& model,
                                                  const scene::Assets& assets,
                                                  const generator::Fineness& fineness) {
-    // Both numbers stand on ladders, so the text is exact enough for a key.
-    const std::string key =
-        keyOf(model, assets) + "\n" + std::to_string(std::log2(fineness.error)) + ' ' +
-        std::to_string(fineness.fullTurn) + ' ' + std::to_string(fineness.straightSide) +
-        (fineness.balanced ? " balanced" : "");
+    // All numbers stand on ladders.
+    const Key key{{}, coarse.id, fineness.error, fineness.fullTurn, fineness.straightSide,
+                  fineness.balanced};
     if (const auto* known = meshes_.find(key)) return *known;
     const std::vector<std::string> words = generator::refine(model, assets, fineness);
     return keep(key, generator::generate(words, assets, model.uv), {},

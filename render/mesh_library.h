@@ -1,5 +1,6 @@
 #pragma once
 
+#include <compare>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -32,21 +33,34 @@ struct MeshData {
     Diagnostics findings;     ///< what was repaired in its file
 };
 
+/// Bytes that a mesh takes.
+std::size_t bytesOf(const MeshData& data);
+
 /// Meshes by source, kept within a bound of bytes, least recently used first out.
 class MeshLibrary {
   public:
     explicit MeshLibrary(std::size_t maxBytes) : meshes_(maxBytes) {}
     /// The mesh of a resolved model. Throws as generator::load does.
     std::shared_ptr<const MeshData> get(const scene::Model& model, const scene::Assets& assets);
-    /// The mesh of an open model (generator::isOpen), as fine as asked.
-    std::shared_ptr<const MeshData> get(const scene::Model& model, const scene::Assets& assets,
+    /// The mesh of an open model (generator::isOpen), as fine as asked. `coarse`: what get without
+    /// fineness gave for the model.
+    std::shared_ptr<const MeshData> get(const MeshData& coarse, const scene::Model& model,
+                                        const scene::Assets& assets,
                                         const generator::Fineness& fineness);
 
   private:
-    std::shared_ptr<const MeshData> keep(const std::string& key, generator::Mesh mesh,
+    /// By the text of its source, or by the coarse mesh's id and the fineness.
+    struct Key {
+        std::string source;
+        std::uint64_t coarse = 0;
+        double error = 0.0, fullTurn = 0.0, straightSide = 0.0;
+        bool balanced = false;
+        auto operator<=>(const Key&) const = default;
+    };
+    std::shared_ptr<const MeshData> keep(const Key& key, generator::Mesh mesh,
                                          Diagnostics findings = {},
                                          const std::vector<std::string>& balanced = {});
-    LruCache<std::string, std::shared_ptr<const MeshData>> meshes_;
+    LruCache<Key, std::shared_ptr<const MeshData>> meshes_;
 };
 
 }  // namespace farol::render

@@ -5,7 +5,9 @@
 
 #include "render/background.h"
 #include "render/camera.h"
-#include "render/instances.h"
+#include "render/frustum.h"
+#include "render/light_reach.h"
+#include "render/sampling.h"
 #include "render/tessellate.h"
 #include "scene/animation.h"
 
@@ -17,6 +19,8 @@ constexpr int kDefaultSamples = 4;
 constexpr double kAxisLength = 100.0;  // as the course draws them
 // Where the third-person camera holds its entity: in front of the eye, in eye space.
 constexpr glm::dvec3 kEntityPlace{0.0, 0.0, -3.0};
+// Half the diagonal of a sheared box is at most sqrt(3) times the root of its squared edges.
+constexpr double kShear = 1.7320508075688774;
 
 /// Eye space as seen from a space: p_eye = rotation * (p - eye).
 struct View {
@@ -44,26 +48,31 @@ scene::Shading automaticShading(const scene::Scene& scene, bool lights) {
 
 class Planner {
   public:
-    Planner(const scene::Scene& scene, const PictureOptions& options, const scene::Assets& assets,
-            MeshLibrary& meshes)
-        : scene_(scene), options_(options), assets_(assets), meshes_(meshes) {}
+    Planner(const scene::Scene& scene, const Placed& placed, const PictureOptions& options,
+            const scene::Assets& assets, MeshLibrary& meshes, const Skipping& skipping)
+        : scene_(scene),
+          placed_(placed),
+          options_(options),
+          assets_(assets),
+          meshes_(meshes),
+          skipping_(skipping) {}
 
     FramePlan run() {
         const glm::ivec2 size = pictureSize(scene_, options_);
         plan_.width = size.x;
         plan_.height = size.y;
         aspect_ = static_cast<double>(size.x) / size.y;
-        const InstanceList list =
-            collect(scene_, options_.timeS, options_.curves, assets_, meshes_);
+        const InstanceList& list = placed_.scene;
         chooseStyle(!list.lights.empty());
         plan_.camera = chooseCamera(scene_, options_, list.bounds, aspect_);
         view_ = {viewRotation(plan_.camera), plan_.camera.eye};
         plan_.worldFromView = glm::mat3(glm::transpose(view_.rotation));
         sight_ = {plan_.camera, plan_.width, plan_.height, options_.errorPx, plan_.shading};
         clip_ = clipFromView(plan_.camera, aspect_, glm::dvec2(0.0));
+        samples_ = samplePattern(plan_.samples);
         addInstances(scene_, list, view_, {});
         plan_.findings = list.findings;
-        if (scene_.entity) addEntity(*scene_.entity);
+        if (placed_.entity) addEntity();
         addLines(list);
         addBackground();
         plan_.stats.textures = static_cast<int>(plan_.textures.size());
@@ -96,14 +105,33 @@ class Planner {
                       const std::vector<EyeLight>& inherited) {
         const int firstSet = static_cast<int>(plan_.lightSets.size());
         addLights(list, view, inherited);
-        for (const Instance& instance : list.instances)
-            add(instance, view, firstSet, scene::defaultMaterial(scene.dialect));
+        addVisible(scene, list, view, firstSet);
+    }
+
+    void addVisible(const scene::Scene& scene, const InstanceList& list, const View& view,
+                    int firstSet) {
+        const BoundsTree::Found found = list.tree.find(
+            Frustum(view.rotation, view.eye, plan_.camera, {plan_.width, plan_.height}));
+        plan_.stats.culledGroups += found.groupsSkipped;
+        const int firstId = plan_.stats.instances + 1;
+        plan_.stats.instances += static_cast<int>(list.instances.size());
+        const scene::Material undressed = scene::defaultMaterial(scene.dialect);
+        textureOf_.assign(list.textures.size(), -1);
+        for (std::size_t i = 0; i < list.instances.size(); ++i) {
+            const Instance& instance = list.instances[i];
+            const glm::dmat3 linear = view.rotation * glm::dmat3(instance.worldFromObject);
+            const bool nothing = instance.mesh->mesh.indices.empty() || linear == glm::dmat3(0.0);
+            if (nothing || (skipping_.outside && found.sides[i] == Frustum::Side::outside))
+                ++plan_.stats.culled;
+            else
+                add(instance, list, view, linear, found.sides[i], firstSet,
+                    static_cast<std::uint32_t>(firstId) + static_cast<std::uint32_t>(i), undressed);
+        }
     }
 
     /// A second scene whose world is eye space, lit by its own lights, else by the scene's.
-    void addEntity(const scene::Scene& entity) {
-        const InstanceList list = collect(entity, options_.timeS, false, assets_, meshes_);
-        addInstances(entity, list, {glm::dmat3(1.0), -kEntityPlace},
+    void addEntity() {
+        addInstances(*scene_.entity, *placed_.entity, {glm::dmat3(1.0), -kEntityPlace},
                      std::vector<EyeLight>(plan_.lightSets[0]));
     }
 
@@ -168,16 +196,31 @@ class Planner {
         return all != 0;
     }
 
-    void add(const Instance& instance, const View& view, int firstSet,
+    /// True if no sample of the picture can lie on what the box holds. (Points and lines reach
+    /// past their geometry.)
+    bool betweenSamples(const Box& box, const glm::dmat4& viewFromObject) const {
+        if (!skipping_.betweenSamples || plan_.shading == scene::Shading::wireframe ||
+            plan_.shading == scene::Shading::points)
+            return false;
+        const std::optional<PixelRect> rect =
+            pixelRect(box, clip_ * viewFromObject, {plan_.width, plan_.height});
+        return rect && missesSamples(*rect, samples_);
+    }
+
+    void add(const Instance& instance, const InstanceList& list, const View& view,
+             const glm::dmat3& linear, Frustum::Side side, int firstSet, std::uint32_t id,
              const scene::Material& undressed) {
-        const auto id = static_cast<std::uint32_t>(++plan_.stats.instances);
-        const glm::dmat3 linear = view.rotation * glm::dmat3(instance.worldFromObject);
         const glm::dvec3 origin = view(glm::dvec3(instance.worldFromObject[3]));
         glm::dmat4 viewFromObject(linear);
         viewFromObject[3] = glm::dvec4(origin, 1.0);
-        const bool nothing = instance.mesh->mesh.indices.empty() || linear == glm::dmat3(0.0);
-        if (nothing || outside(instance.mesh->bounds, viewFromObject)) {
+        // The model's own box fits closer than that along the world's axes.
+        if (skipping_.outside && side == Frustum::Side::straddles &&
+            outside(instance.mesh->bounds, viewFromObject)) {
             ++plan_.stats.culled;
+            return;
+        }
+        if (betweenSamples(instance.mesh->bounds, viewFromObject)) {
+            ++plan_.stats.betweenSamples;
             return;
         }
         const scene::Model& model = *instance.model;
@@ -186,7 +229,7 @@ class Planner {
         if (instance.open) {
             const std::optional<SeenSurface> seen =
                 wantsSurface() ? seenSurface(model, viewFromObject) : std::nullopt;
-            item.mesh = meshes_.get(model, assets_,
+            item.mesh = meshes_.get(*instance.mesh, model, assets_,
                                     fineness(instance.mesh->bounds, viewFromObject, seen,
                                              model.texture.has_value(), sight_));
             if (seen) {
@@ -211,8 +254,18 @@ class Planner {
         if (largest > 0.0)
             item.normalFromObject = glm::mat3(cofactor * ((det < 0.0 ? -1.0 : 1.0) / largest));
         item.mirrored = det < 0.0;
-        fillMaterial(item, model, undressed);
+        fillMaterial(item, instance, list, undressed);
         item.lightSet = firstSet + instance.lightSet;
+        if (plan_.lit && skipping_.lights) {
+            const Box& box = instance.mesh->bounds;
+            const glm::dvec3 center(viewFromObject * glm::dvec4((box.min + box.max) * 0.5, 1.0));
+            const glm::dvec3 half = (box.max - box.min) * 0.5;
+            const double radius = glm::length(glm::dvec3(glm::length(linear[0]) * half.x,
+                                                         glm::length(linear[1]) * half.y,
+                                                         glm::length(linear[2]) * half.z));
+            item.lightSet =
+                reached_.reduce(item.lightSet, center, radius * kShear, plan_.stats.lightsSkipped);
+        }
         item.id = id;
         plan_.stats.triangles += static_cast<std::int64_t>(item.mesh->mesh.triangles());
         if (model.twoSided) {
@@ -235,7 +288,9 @@ class Planner {
                plan_.shading != scene::Shading::points && plan_.shading != scene::Shading::chess;
     }
 
-    void fillMaterial(DrawItem& item, const scene::Model& model, const scene::Material& undressed) {
+    void fillMaterial(DrawItem& item, const Instance& instance, const InstanceList& list,
+                      const scene::Material& undressed) {
+        const scene::Model& model = *instance.model;
         const scene::Material& material = model.material ? *model.material : undressed;
         const double t = options_.timeS;
         item.diffuse = scene::colorAt(material.diffuse, t);
@@ -253,27 +308,20 @@ class Planner {
         item.planeS = glm::vec4(model.texture->planeS);
         item.planeT = glm::vec4(model.texture->planeT);
         if (item.mapping == scene::Mapping::mesh && item.mesh->mesh.uvs.empty()) return;
-        item.texture = textureIndex(*model.texture);
+        item.texture = textureIndex(list, static_cast<std::size_t>(instance.texture));
     }
 
-    int textureIndex(const scene::Texture& texture) {
-        TextureRef ref;
-        ref.path = texture.path;
-        ref.chess = texture.chess;
-        ref.filter = options_.filter.value_or(texture.filter.value_or(scene::Filter::mipmap));
-        ref.where = texture.where;
-        return addTexture(std::move(ref));
+    int textureIndex(const InstanceList& list, std::size_t texture) {
+        int& known = textureOf_[texture];
+        if (known < 0) {
+            TextureRef ref = list.textures[texture];
+            ref.filter = options_.filter.value_or(ref.filter);
+            known = addTexture(std::move(ref));
+        }
+        return known;
     }
 
     int addTexture(TextureRef ref) {
-        if (ref.chess) {
-            const scene::Chess& chess = *ref.chess;
-            ref.key = "chess " + std::to_string(chess.columns) + ' ' + std::to_string(chess.rows);
-            for (const glm::vec3& color : {chess.first, chess.second})
-                for (int i = 0; i < 3; ++i) ref.key += ' ' + std::to_string(color[i]);
-        } else {
-            ref.key = ref.path + '\n' + assets_.version(ref.path);
-        }
         const auto found =
             std::find_if(plan_.textures.begin(), plan_.textures.end(), [&](const TextureRef& one) {
                 return one.key == ref.key && one.filter == ref.filter && one.cube == ref.cube;
@@ -325,15 +373,13 @@ class Planner {
             return;
         }
         if (!chosen.path.empty()) {
-            TextureRef ref;
-            ref.path = chosen.path;
+            TextureRef ref = refOf(chosen.path, assets_);
             ref.filter = scene::Filter::linear;
             plan_.backgroundTexture = addTexture(std::move(ref));
         }
         if (scene_.skybox) {
-            TextureRef ref;
+            TextureRef ref = refOf(scene_.skybox->path, assets_);
             ref.cube = true;
-            ref.path = scene_.skybox->path;
             ref.filter = scene::Filter::linear;
             ref.where = scene_.skybox->where;
             plan_.skyboxTexture = addTexture(std::move(ref));
@@ -341,10 +387,15 @@ class Planner {
     }
 
     const scene::Scene& scene_;
+    const Placed& placed_;
     const PictureOptions& options_;
     const scene::Assets& assets_;
     MeshLibrary& meshes_;
+    const Skipping& skipping_;
     FramePlan plan_;
+    SamplePattern samples_;
+    ReachedLights reached_{plan_.lightSets};
+    std::vector<int> textureOf_;  ///< of an InstanceList, in plan_.textures
     double aspect_ = 1.0;
     View view_;
     Sight sight_;
@@ -367,9 +418,15 @@ glm::ivec2 pictureSize(const scene::Scene& scene, const PictureOptions& options)
     return size;
 }
 
+FramePlan plan(const scene::Scene& scene, const Placed& placed, const PictureOptions& options,
+               const scene::Assets& assets, MeshLibrary& meshes, const Skipping& skipping) {
+    return Planner(scene, placed, options, assets, meshes, skipping).run();
+}
+
 FramePlan plan(const scene::Scene& scene, const PictureOptions& options,
-               const scene::Assets& assets, MeshLibrary& meshes) {
-    return Planner(scene, options, assets, meshes).run();
+               const scene::Assets& assets, MeshLibrary& meshes, const Skipping& skipping) {
+    return plan(scene, place(scene, options.timeS, options.curves, assets, meshes), options, assets,
+                meshes, skipping);
 }
 
 }  // namespace farol::render

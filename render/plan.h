@@ -7,32 +7,18 @@
 #include <string>
 #include <vector>
 
+#include "render/eye_light.h"
+#include "render/instances.h"
 #include "render/mesh_library.h"
 #include "render/options.h"
 #include "render/renderer.h"
+#include "render/texture_ref.h"
 #include "scene/assets.h"
 #include "scene/scene.h"
 
 /// What a frame draws and how, decided before any GL. Matrices are composed in double; what
 /// stands here in float is relative to the eye. Eye space: viewer at the origin, looking at -Z.
 namespace farol::render {
-
-struct EyeLight {
-    glm::vec4 position;     ///< w = 1: place; w = 0: unit vector towards the light
-    glm::vec4 spot;         ///< unit direction of shining; w: cosine of the cutoff, -2: no cone
-    glm::vec4 attenuation;  ///< constant, linear, quadratic; w: spot exponent
-    glm::vec4 diffuse, ambient, specular;
-    bool operator==(const EyeLight&) const = default;
-};
-
-/// A picture that draws sample: an asset or a chess board. `key` names its content.
-struct TextureRef {
-    std::string key, path;
-    std::optional<scene::Chess> chess;
-    bool cube = false;  ///< a skybox's cross
-    scene::Filter filter = scene::Filter::mipmap;
-    Location where;
-};
 
 struct DrawItem {
     std::shared_ptr<const MeshData> mesh;
@@ -85,8 +71,21 @@ struct FramePlan {
 /// Width and height that a picture will have, after scale. Throws Error limit.pixels.
 glm::ivec2 pictureSize(const scene::Scene& scene, const PictureOptions& options);
 
-/// Plans one frame of a resolved scene. Throws Error as Renderer::render does.
+/// What may be left out of a frame because nothing of it can be seen. All on but in tests, which
+/// show that the picture is the same without.
+struct Skipping {
+    bool outside = true;         ///< what is beyond the view's borders
+    bool betweenSamples = true;  ///< what is too small to be met by a sample of any pixel
+    bool lights = true;          ///< lights that add nothing to a model
+};
+
+/// Plans one frame of a resolved scene that was placed at options.timeS. Throws Error as
+/// Renderer::render does.
+FramePlan plan(const scene::Scene& scene, const Placed& placed, const PictureOptions& options,
+               const scene::Assets& assets, MeshLibrary& meshes, const Skipping& skipping = {});
+
+/// The same, placed just for it.
 FramePlan plan(const scene::Scene& scene, const PictureOptions& options,
-               const scene::Assets& assets, MeshLibrary& meshes);
+               const scene::Assets& assets, MeshLibrary& meshes, const Skipping& skipping = {});
 
 }  // namespace farol::render

@@ -4,6 +4,7 @@
 #include <cctype>
 
 #include "generator/registry.h"
+#include "scene/animation.h"
 #include "scene/archive.h"
 #include "scene/reader.h"
 
@@ -141,6 +142,8 @@ Prepared prepare(const Job& job) {
     if (job.options.entity) takeEntity(prepared, *job.options.entity);
     generator::resolve(prepared.scene, *prepared.assets, prepared.diagnostics);
     refuseErrors(prepared.diagnostics, job.strict);
+    prepared.animated = scene::isAnimated(prepared.scene) ||
+                        (prepared.scene.entity && scene::isAnimated(*prepared.scene.entity));
     return prepared;
 }
 

@@ -14,6 +14,7 @@ struct Prepared {
     scene::Scene scene;
     Diagnostics diagnostics;  ///< info and warnings
     std::shared_ptr<const scene::Assets> assets;
+    bool animated = false;  ///< something depends on the time
 };
 
 /// Reads the document (or, by the ending of the name, a mesh file on its own) and resolves what it

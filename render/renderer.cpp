@@ -22,6 +22,18 @@ namespace {
 
 constexpr std::size_t kMeshBytes = std::size_t{256} << 20;
 constexpr std::size_t kScenes = 64;  // at most 50,000 elements each
+constexpr std::size_t kPlacedBytes = std::size_t{64} << 20;
+
+struct PlacedKey {
+    const Prepared* prepared;  // alive as long as the entry is
+    double timeS;              // 0 where nothing moves
+    bool curves;
+    auto operator<=>(const PlacedKey&) const = default;
+};
+struct KeptPlaces {
+    std::shared_ptr<const Prepared> prepared;
+    Placed placed;
+};
 
 /// Milliseconds since the last call, for stage times.
 class Stopwatch {
@@ -90,7 +102,21 @@ struct Renderer::State {
     gl::Painter painter;
     MeshLibrary meshes{kMeshBytes};
     PreparedCache scenes{kScenes};
+    LruCache<PlacedKey, KeptPlaces> places{kPlacedBytes};
+
+    const Placed& placed(const std::shared_ptr<const Prepared>& prepared, const Job& job);
 };
+
+const Placed& Renderer::State::placed(const std::shared_ptr<const Prepared>& prepared,
+                                      const Job& job) {
+    const PlacedKey key{prepared.get(), prepared->animated ? job.options.timeS : 0.0,
+                        job.options.curves};
+    if (const KeptPlaces* known = places.find(key)) return known->placed;
+    Placed fresh =
+        place(prepared->scene, job.options.timeS, job.options.curves, *prepared->assets, meshes);
+    const std::size_t bytes = bytesOf(fresh);
+    return places.put(key, {prepared, std::move(fresh)}, bytes).placed;
+}
 
 Renderer::Renderer() : state_(std::make_unique<State>()) {}
 Renderer::~Renderer() = default;
@@ -106,7 +132,9 @@ Picture Renderer::draw(const Job& job, Image& image) {
     picture.diagnostics = prepared.diagnostics;
     picture.times.parseMs = watch.lap();
 
-    FramePlan frame = plan(prepared.scene, job.options, *prepared.assets, state_->meshes);
+    FramePlan frame =
+        plan(prepared.scene, state_->placed(kept, job), job.options, *prepared.assets,
+             state_->meshes, job.drawUnseen ? Skipping{false, false, false} : Skipping{});
     picture.camera = frame.camera;
     takeFindings(picture.diagnostics, frame.findings, job.strict);
     picture.times.geometryMs = watch.lap();

@@ -32,9 +32,17 @@ json toJson(const scene::Camera& camera) {
 }
 
 json toJson(const render::Stats& stats) {
-    return {{"instances", stats.instances}, {"culled", stats.culled},
-            {"drawCalls", stats.drawCalls}, {"textures", stats.textures},
-            {"lights", stats.lights},       {"triangles", stats.triangles}};
+    return {{"instances", stats.instances},
+            {"culled", stats.culled},
+            {"drawCalls", stats.drawCalls},
+            {"textures", stats.textures},
+            {"lights", stats.lights},
+            {"triangles", stats.triangles},
+            {"culledGroups", stats.culledGroups},
+            {"betweenSamples", stats.betweenSamples},
+            {"texturesSkipped", stats.texturesSkipped},
+            {"mipBytesSkipped", stats.mipBytesSkipped},
+            {"lightsSkipped", stats.lightsSkipped}};
 }
 
 json toJson(const render::SceneReport& report) {

@@ -13,6 +13,7 @@
 #include "render/gl/program.h"
 #include "render/gl/target.h"
 #include "render/gl/texture_store.h"
+#include "render/sampling.h"
 
 namespace farol::render::gl {
 namespace {
@@ -23,35 +24,6 @@ constexpr std::size_t kTextureBytes = std::size_t{384} << 20;
 double sinceMs(std::chrono::steady_clock::time_point begin) {
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin)
         .count();
-}
-
-/// How many samples GL takes at once and how many jittered passes make up the rest.
-struct Sampling {
-    int samples, passes;
-};
-
-Sampling sampling(int wanted, int most) {
-    if (wanted <= 1 || most <= 1) return {1, std::max(1, wanted)};
-    return {most, std::max(1, wanted / most)};
-}
-
-/// Offsets of the passes within a pixel, -0.5..0.5: the centres of the cells of a rotated grid.
-glm::dvec2 passOffset(int pass, int passes) {
-    if (passes == 1) return glm::dvec2(0.0);
-    constexpr std::array<glm::dvec2, 4> kQuarter{
-        {{-0.125, -0.125}, {0.125, 0.125}, {0.125, -0.125}, {-0.125, 0.125}}};
-    if (passes <= 4) return kQuarter[static_cast<std::size_t>(pass)];
-    // Without multisampling: Halton points of bases 2 and 3.
-    const auto halton = [](int index, int base) {
-        double value = 0.0;
-        double fraction = 1.0;
-        for (int i = index; i > 0; i /= base) {
-            fraction /= base;
-            value += fraction * (i % base);
-        }
-        return value;
-    };
-    return {halton(pass + 1, 2) - 0.5, halton(pass + 1, 3) - 0.5};
 }
 
 /// Alpha was blended towards a transparent black: divides it out again.
@@ -114,7 +86,7 @@ struct Painter::State {
 
     State() {
         api.GetIntegerv(GL_MAX_SAMPLES, &mostSamples);
-        mostSamples = std::min(mostSamples, 4);
+        mostSamples = std::min(mostSamples, kGlSamples);
         api.ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
         api.DepthFunc(GL_GREATER);
         api.Enable(GL_CULL_FACE);
@@ -333,7 +305,7 @@ Image Painter::draw(const FramePlan& plan, const Decode& decode, int& drawCalls,
     s.context->makeCurrent();
     s.prepare(plan, decode);
     auto begin = std::chrono::steady_clock::now();
-    const Sampling sampled = sampling(plan.samples, s.mostSamples);
+    const Sampling sampled = chooseSampling(plan.samples, s.mostSamples);
     if (!s.target || !s.target->fits(plan.width, plan.height, sampled.samples)) {
         s.target.reset();  // the old one first: two large ones need not fit
         s.target.emplace(s.api, plan.width, plan.height, sampled.samples);

@@ -61,8 +61,10 @@ void visit(Archive& archive, T& value) {
 
 template <typename Archive, Is<Stats> T>
 void visit(Archive& archive, T& value) {
-    auto& [instances, culled, drawCalls, textures, lights, triangles] = value;
-    archive(instances, culled, drawCalls, textures, lights, triangles);
+    auto& [instances, culled, drawCalls, textures, lights, triangles, culledGroups, betweenSamples,
+           texturesSkipped, mipBytesSkipped, lightsSkipped] = value;
+    archive(instances, culled, drawCalls, textures, lights, triangles, culledGroups, betweenSamples,
+            texturesSkipped, mipBytesSkipped, lightsSkipped);
 }
 
 template <typename Archive, Is<StageTimes> T>
@@ -132,7 +134,7 @@ std::string packed(const T& value) {
 
 std::string pack(const Request& request) {
     const auto& [task, job, mesh] = request;
-    const auto& [name, xml, assets, options, strict, identity, archive] = job;
+    const auto& [name, xml, assets, options, strict, identity, archive, drawUnseen] = job;
     std::string folder;
     Files files;
     if (const auto* served = dynamic_cast<const scene::FolderAssets*>(assets.get())) {
@@ -142,7 +144,7 @@ std::string pack(const Request& request) {
             if (auto bytes = assets->read(path)) files.emplace_back(path, std::move(*bytes));
     }
     Packer packer;
-    packer(task, name, xml, folder, files, options, strict, identity, archive, mesh);
+    packer(task, name, xml, folder, files, options, strict, identity, archive, drawUnseen, mesh);
     return packer.take();
 }
 
@@ -153,7 +155,7 @@ Request unpackRequest(std::string_view bytes) {
     Unpacker unpacker(bytes);
     render::Job& job = request.job;
     unpacker(request.task, job.name, job.xml, folder, files, job.options, job.strict, job.identity,
-             job.archive, request.mesh);
+             job.archive, job.drawUnseen, request.mesh);
     unpacker.end();
     if (!folder.empty())
         job.assets = std::make_shared<scene::FolderAssets>(folder);

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <array>
+#include <glm/glm.hpp>
+#include <optional>
+
+#include "render/mesh_library.h"
+#include "render/sampling.h"
+#include "scene/scene.h"
+
+namespace farol::render {
+
+/// The view as six planes, for boxes in the space that the eye is given in. All answers are
+/// conservative: they leave a margin for what is rounded to float on the way to the picture, and of
+/// two pixels for the passes of antialiasing and for points and lines, which reach past their
+/// geometry. Method: Assarsson and Moeller 2000, "Optimized view frustum culling algorithms for
+/// bounding boxes" (the corner farthest along a plane's normal decides; planes that a group is
+/// wholly within are not tried again below it).
+class Frustum {
+  public:
+    /// rotation: viewFromWorld without its translation; size: of the picture, px.
+    Frustum(const glm::dmat3& rotation, const glm::dvec3& eye, const scene::Camera& camera,
+            const glm::ivec2& size);
+
+    enum class Side { outside, straddles, inside };
+    /// `planes`: a bit for each plane that is still to be tried; those that the box is wholly
+    /// within are taken out of it.
+    Side test(const Box& box, unsigned& planes) const;
+
+    static constexpr unsigned kAllPlanes = 0x3FU;
+
+  private:
+    struct Plane {
+        glm::dvec3 normal;  ///< unit, inward
+        double offset;      ///< inside: dot(normal, p - eye) + offset >= 0
+    };
+    std::array<Plane, 6> planes_;
+    glm::dvec3 eye_;
+};
+
+/// An axis-aligned rectangle of the picture, px from its lower left.
+struct PixelRect {
+    glm::dvec2 min{0.0}, max{0.0};
+};
+
+/// Where a box (object space) falls in the picture; nothing when it reaches before the near plane.
+std::optional<PixelRect> pixelRect(const Box& box, const glm::dmat4& clipFromObject,
+                                   const glm::ivec2& size);
+
+/// True if no sample lies in the rectangle, widened by what the rasteriser's snapping of vertices
+/// (1/256 px) and rounding to float can move an edge: nothing in it can be seen.
+bool missesSamples(const PixelRect& rect, const SamplePattern& samples);
+
+}  // namespace farol::render

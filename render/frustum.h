@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <glm/glm.hpp>
 #include <optional>
 
@@ -22,7 +23,7 @@ class Frustum {
     Frustum(const glm::dmat3& rotation, const glm::dvec3& eye, const scene::Camera& camera,
             const glm::ivec2& size);
 
-    enum class Side { outside, straddles, inside };
+    enum class Side : std::uint8_t { outside, straddles, inside };
     /// `planes`: a bit for each plane that is still to be tried; those that the box is wholly
     /// within are taken out of it.
     Side test(const Box& box, unsigned& planes) const;

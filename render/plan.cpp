@@ -118,15 +118,14 @@ class Planner {
         const scene::Material undressed = scene::defaultMaterial(scene.dialect);
         textureOf_.assign(list.textures.size(), -1);
         for (std::size_t i = 0; i < list.instances.size(); ++i) {
-            const Instance& instance = list.instances[i];
-            const glm::dmat3 linear = view.rotation * glm::dmat3(instance.worldFromObject);
-            const bool nothing = instance.mesh->mesh.indices.empty() || linear == glm::dmat3(0.0);
-            if (nothing || (skipping_.outside && found.sides[i] == Frustum::Side::outside))
-                ++plan_.stats.culled;
+            // Whether they are seen stands apart: what is not seen is not touched.
+            if (found.sides[i] != Frustum::Side::outside || !skipping_.outside)
+                add(list, i, view, found.sides[i], firstSet, firstId, undressed);
             else
-                add(instance, list, view, linear, found.sides[i], firstSet,
-                    static_cast<std::uint32_t>(firstId) + static_cast<std::uint32_t>(i), undressed);
+                ++plan_.stats.culled;
         }
+        plan_.stats.texturesSkipped +=
+            static_cast<int>(std::count(textureOf_.begin(), textureOf_.end(), -1));
     }
 
     /// A second scene whose world is eye space, lit by its own lights, else by the scene's.
@@ -207,12 +206,16 @@ class Planner {
         return rect && missesSamples(*rect, samples_);
     }
 
-    void add(const Instance& instance, const InstanceList& list, const View& view,
-             const glm::dmat3& linear, Frustum::Side side, int firstSet, std::uint32_t id,
-             const scene::Material& undressed) {
-        const glm::dvec3 origin = view(glm::dvec3(instance.worldFromObject[3]));
+    void add(const InstanceList& list, std::size_t index, const View& view, Frustum::Side side,
+             int firstSet, int firstId, const scene::Material& undressed) {
+        const Instance& instance = list.instances[index];
+        const glm::dmat3 linear = view.rotation * glm::dmat3(instance.worldFromObject);
+        if (instance.mesh->mesh.indices.empty() || linear == glm::dmat3(0.0)) {
+            ++plan_.stats.culled;
+            return;
+        }
         glm::dmat4 viewFromObject(linear);
-        viewFromObject[3] = glm::dvec4(origin, 1.0);
+        viewFromObject[3] = glm::dvec4(view(glm::dvec3(instance.worldFromObject[3])), 1.0);
         // The model's own box fits closer than that along the world's axes.
         if (skipping_.outside && side == Frustum::Side::straddles &&
             outside(instance.mesh->bounds, viewFromObject)) {
@@ -266,7 +269,7 @@ class Planner {
             item.lightSet =
                 reached_.reduce(item.lightSet, center, radius * kShear, plan_.stats.lightsSkipped);
         }
-        item.id = id;
+        item.id = static_cast<std::uint32_t>(firstId) + static_cast<std::uint32_t>(index);
         plan_.stats.triangles += static_cast<std::int64_t>(item.mesh->mesh.triangles());
         if (model.twoSided) {
             DrawItem back = item;

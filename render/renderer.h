@@ -40,8 +40,7 @@ struct Stats {
     int culledGroups = 0;     ///< groups told to be outside at once, without a look at their models
     int betweenSamples = 0;   ///< models too small to be met by a sample of any pixel
     int texturesSkipped = 0;  ///< pictures that only models sample which are not drawn
-    std::int64_t mipBytesSkipped = 0;  ///< of levels finer than any pixel samples
-    std::int64_t lightsSkipped = 0;    ///< for each model: lights that add nothing to it
+    std::int64_t lightsSkipped = 0;  ///< for each model: lights that add nothing to it
 };
 
 /// Wall time of each stage, ms.

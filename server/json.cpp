@@ -41,7 +41,6 @@ json toJson(const render::Stats& stats) {
             {"culledGroups", stats.culledGroups},
             {"betweenSamples", stats.betweenSamples},
             {"texturesSkipped", stats.texturesSkipped},
-            {"mipBytesSkipped", stats.mipBytesSkipped},
             {"lightsSkipped", stats.lightsSkipped}};
 }
 

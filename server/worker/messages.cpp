@@ -62,9 +62,9 @@ void visit(Archive& archive, T& value) {
 template <typename Archive, Is<Stats> T>
 void visit(Archive& archive, T& value) {
     auto& [instances, culled, drawCalls, textures, lights, triangles, culledGroups, betweenSamples,
-           texturesSkipped, mipBytesSkipped, lightsSkipped] = value;
+           texturesSkipped, lightsSkipped] = value;
     archive(instances, culled, drawCalls, textures, lights, triangles, culledGroups, betweenSamples,
-            texturesSkipped, mipBytesSkipped, lightsSkipped);
+            texturesSkipped, lightsSkipped);
 }
 
 template <typename Archive, Is<StageTimes> T>

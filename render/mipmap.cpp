@@ -67,8 +67,13 @@ Fixed halve(const Fixed& from) {
 }  // namespace
 
 bool isOpaque(const Image& image) {
-    for (std::size_t i = 3; i < image.pixels.size(); i += 4)
-        if (image.pixels[i] != 255) return false;
+    // A row at a time, without a branch for each pixel.
+    const std::size_t stride = static_cast<std::size_t>(image.width) * 4;
+    for (std::size_t row = 0; row < image.pixels.size(); row += stride) {
+        std::uint8_t all = 255;
+        for (std::size_t i = row + 3; i < row + stride; i += 4) all &= image.pixels[i];
+        if (all != 255) return false;
+    }
     return true;
 }
 

@@ -102,6 +102,7 @@ struct Renderer::State {
     gl::Painter painter;
     MeshLibrary meshes{kMeshBytes};
     PreparedCache scenes{kScenes};
+    Image image;  ///< of the last picture: its memory serves the next
     LruCache<PlacedKey, KeptPlaces> places{kPlacedBytes};
 
     const Placed& placed(const std::shared_ptr<const Prepared>& prepared, const Job& job);
@@ -140,8 +141,8 @@ Picture Renderer::draw(const Job& job, Image& image) {
     picture.times.geometryMs = watch.lap();
 
     gl::Painter::Timings timings;
-    image = state_->painter.draw(
-        frame, [&](const TextureRef& ref) { return decodeTexture(ref, *prepared.assets); },
+    state_->painter.draw(
+        frame, [&](const TextureRef& ref) { return decodeTexture(ref, *prepared.assets); }, image,
         frame.stats.drawCalls, timings);
     const double total = watch.lap();
     picture.times.drawMs = timings.drawMs;
@@ -158,10 +159,9 @@ Picture Renderer::draw(const Job& job, Image& image) {
 }
 
 Picture Renderer::render(const Job& job) {
-    Image image;
-    Picture picture = draw(job, image);
+    Picture picture = draw(job, state_->image);
     Stopwatch watch;
-    picture.bytes = encode(image, job.options.format, job.options.quality);
+    picture.bytes = encode(state_->image, job.options.format, job.options.quality);
     picture.times.encodeMs = watch.lap();
     picture.contentType = contentType(job.options.format);
     return picture;

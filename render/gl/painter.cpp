@@ -300,7 +300,8 @@ void Painter::State::drawPass(const FramePlan& plan, const glm::dvec2& offset, i
     api.Enable(GL_DEPTH_TEST);
 }
 
-Image Painter::draw(const FramePlan& plan, const Decode& decode, int& drawCalls, Timings& timings) {
+void Painter::draw(const FramePlan& plan, const Decode& decode, Image& image, int& drawCalls,
+                   Timings& timings) {
     State& s = *state_;
     s.context->makeCurrent();
     s.prepare(plan, decode);
@@ -310,7 +311,6 @@ Image Painter::draw(const FramePlan& plan, const Decode& decode, int& drawCalls,
         s.target.reset();  // the old one first: two large ones need not fit
         s.target.emplace(s.api, plan.width, plan.height, sampled.samples);
     }
-    Image image;
     std::vector<std::uint16_t> sum;
     for (int pass = 0; pass < sampled.passes; ++pass) {
         s.drawPass(plan, passOffset(pass, sampled.passes), drawCalls);
@@ -331,7 +331,6 @@ Image Painter::draw(const FramePlan& plan, const Decode& decode, int& drawCalls,
         throw std::runtime_error("GL error " + std::to_string(error) + " while drawing");
     if (plan.background.a < 1.0F) unpremultiply(image);
     timings.drawMs += sinceMs(begin) - timings.readbackMs;
-    return image;
 }
 
 }  // namespace farol::render::gl

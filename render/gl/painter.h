@@ -24,8 +24,10 @@ class Painter {
     struct Timings {
         double drawMs = 0, readbackMs = 0;
     };
-    /// The picture of a plan, straight alpha; counts draw calls into `drawCalls`.
-    Image draw(const FramePlan& plan, const Decode& decode, int& drawCalls, Timings& timings);
+    /// The picture of a plan, straight alpha, into `image`, whose memory is used again where it is
+    /// as large; counts draw calls into `drawCalls`.
+    void draw(const FramePlan& plan, const Decode& decode, Image& image, int& drawCalls,
+              Timings& timings);
 
     const std::string& description() const;
 

@@ -1,10 +1,11 @@
 #include "render/gl/target.h"
 
-#include <algorithm>
 #include <new>
 
 namespace farol::render::gl {
 namespace {
+
+constexpr GLenum kPackInvert = 0x8758;  // GL_MESA_pack_invert
 
 Renderbuffer storage(const Api& api, GLenum format, int width, int height, int samples) {
     Renderbuffer buffer(api);
@@ -51,9 +52,7 @@ void Target::bind() const {
 void Target::read(Image& image) const {
     image.width = width_;
     image.height = height_;
-    const std::size_t stride = static_cast<std::size_t>(width_) * 4;
-    const std::size_t rows = static_cast<std::size_t>(height_);
-    image.pixels.resize(stride * rows);
+    image.pixels.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_) * 4);
     GLuint source = drawn_.name();
     if (samples_ > 1) {
         api_.BindFramebuffer(GL_READ_FRAMEBUFFER, drawn_.name());
@@ -64,10 +63,8 @@ void Target::read(Image& image) const {
     }
     api_.BindFramebuffer(GL_READ_FRAMEBUFFER, source);
     api_.PixelStorei(GL_PACK_ALIGNMENT, 1);
+    api_.PixelStorei(kPackInvert, GL_TRUE);  // top row first
     api_.ReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, image.pixels.data());
-    for (std::size_t y = 0; y < rows / 2; ++y)
-        std::swap_ranges(&image.pixels[y * stride], &image.pixels[y * stride] + stride,
-                         &image.pixels[(rows - 1 - y) * stride]);
 }
 
 }  // namespace farol::render::gl

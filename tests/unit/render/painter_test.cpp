@@ -73,9 +73,11 @@ EyeLight light(const glm::vec4& position) {
 Image draw(render::gl::Painter& painter, const FramePlan& plan) {
     int calls = 0;
     render::gl::Painter::Timings timings;
-    return painter.draw(
+    Image image;
+    painter.draw(
         plan, [](const render::TextureRef&) -> Image { throw std::logic_error("no texture"); },
-        calls, timings);
+        image, calls, timings);
+    return image;
 }
 
 /// Where the ray of a pixel's centre meets the wall.

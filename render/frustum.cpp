@@ -6,9 +6,8 @@
 namespace farol::render {
 namespace {
 
-constexpr double kMarginPx = 2.0;
 // Single precision on the way to the picture: a few times 2^-24 of the largest coordinate.
-constexpr double kSlack = 1e-6;
+constexpr double kSingle = 1e-6;
 // Snapping moves a vertex by at most 1/512 px, float window coordinates below 8192 by as much.
 constexpr double kSnapPx = 1.0 / 64.0;
 
@@ -17,11 +16,12 @@ double sumOf(const glm::dvec3& v) { return v.x + v.y + v.z; }
 }  // namespace
 
 Frustum::Frustum(const glm::dmat3& rotation, const glm::dvec3& eye, const scene::Camera& camera,
-                 const glm::ivec2& size)
-    : eye_(eye) {
+                 const glm::ivec2& size, double errorPx)
+    : eye_(eye), slack_(cullingSlack(camera, size, errorPx)) {
+    const double marginPx = cullingMarginPx(errorPx);
     const double up = std::tan(glm::radians(camera.fovDeg) / 2.0);
-    const double tanX = up * size.x / size.y * (1.0 + 2.0 * kMarginPx / size.x);
-    const double tanY = up * (1.0 + 2.0 * kMarginPx / size.y);
+    const double tanX = up * size.x / size.y * (1.0 + 2.0 * marginPx / size.x);
+    const double tanY = up * (1.0 + 2.0 * marginPx / size.y);
     const auto plane = [&](const glm::dvec3& normalView, double offset) {
         return Plane{glm::normalize(glm::transpose(rotation) * normalView), offset};
     };
@@ -33,7 +33,7 @@ Frustum::Frustum(const glm::dmat3& rotation, const glm::dvec3& eye, const scene:
 Frustum::Side Frustum::test(const Box& box, unsigned& planes) const {
     const glm::dvec3 center = (box.min + box.max) * 0.5 - eye_;
     const glm::dvec3 half = (box.max - box.min) * 0.5;
-    const double slack = kSlack * (sumOf(glm::abs(center)) + sumOf(half));
+    const double slack = slack_ * (sumOf(glm::abs(center)) + sumOf(half));
     for (unsigned i = 0; i < planes_.size(); ++i) {
         if (!(planes & (1U << i))) continue;
         const double distance = glm::dot(planes_[i].normal, center) + planes_[i].offset;
@@ -43,6 +43,12 @@ Frustum::Side Frustum::test(const Box& box, unsigned& planes) const {
     }
     return planes ? Side::straddles : Side::inside;
 }
+
+double cullingSlack(const scene::Camera& camera, const glm::ivec2& size, double errorPx) {
+    return kSingle + 2.0 * errorPx * 2.0 * std::tan(glm::radians(camera.fovDeg) / 2.0) / size.y;
+}
+
+double cullingMarginPx(double errorPx) { return 2.0 + 2.0 * errorPx; }
 
 std::optional<PixelRect> pixelRect(const Box& box, const glm::dmat4& clipFromObject,
                                    const glm::ivec2& size) {

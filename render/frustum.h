@@ -12,16 +12,16 @@
 namespace farol::render {
 
 /// The view as six planes, for boxes in the space that the eye is given in. All answers are
-/// conservative: they leave a margin for what is rounded to float on the way to the picture, and of
-/// two pixels for the passes of antialiasing and for points and lines, which reach past their
-/// geometry. Method: Assarsson and Moeller 2000, "Optimized view frustum culling algorithms for
-/// bounding boxes" (the corner farthest along a plane's normal decides; planes that a group is
-/// wholly within are not tried again below it).
+/// conservative: they leave a margin of cullingSlack,
+/// and of cullingMarginPx beside the picture. Method:
+/// Assarsson and Moeller 2000, "Optimized view frustum culling algorithms for bounding boxes" (the
+/// corner farthest along a plane's normal decides; planes that a group is wholly within are not
+/// tried again below it).
 class Frustum {
   public:
     /// rotation: viewFromWorld without its translation; size: of the picture, px.
     Frustum(const glm::dmat3& rotation, const glm::dvec3& eye, const scene::Camera& camera,
-            const glm::ivec2& size);
+            const glm::ivec2& size, double errorPx);
 
     enum class Side : std::uint8_t { outside, straddles, inside };
     /// `planes`: a bit for each plane that is still to be tried; those that the box is wholly
@@ -37,7 +37,15 @@ class Frustum {
     };
     std::array<Plane, 6> planes_;
     glm::dvec3 eye_;
+    double slack_;
 };
+
+/// The share of a point's distance by which it may be elsewhere than computed in double: what
+/// single precision loses on the way to the picture, and by what balanced meshes stand out of their
+/// surface: errorPx seen at that distance, taken twice.
+double cullingSlack(const scene::Camera& camera, const glm::ivec2& size, double errorPx);
+/// Likewise in the picture; passes of antialiasing, points and lines reach past their geometry too.
+double cullingMarginPx(double errorPx);
 
 /// An axis-aligned rectangle of the picture, px from its lower left.
 struct PixelRect {

@@ -57,8 +57,8 @@ std::shared_ptr<const MeshData> MeshLibrary::get(const MeshData& coarse, const s
                                                  const scene::Assets& assets,
                                                  const generator::Fineness& fineness) {
     // All numbers stand on ladders.
-    const Key key{{}, coarse.id, fineness.error, fineness.fullTurn, fineness.straightSide,
-                  fineness.balanced};
+    const Key key{
+        {}, coarse.id, fineness.error, fineness.fullTurn, fineness.straightSide, fineness.balanced};
     if (const auto* known = meshes_.find(key)) return *known;
     const std::vector<std::string> words = generator::refine(model, assets, fineness);
     return keep(key, generator::generate(words, assets, model.uv), {},

@@ -70,6 +70,8 @@ class Planner {
         sight_ = {plan_.camera, plan_.width, plan_.height, options_.errorPx, plan_.shading};
         clip_ = clipFromView(plan_.camera, aspect_, glm::dvec2(0.0));
         samples_ = samplePattern(plan_.samples);
+        marginPx_ = cullingMarginPx(options_.errorPx);
+        slack_ = cullingSlack(plan_.camera, {plan_.width, plan_.height}, options_.errorPx);
         addInstances(scene_, list, view_, {});
         plan_.findings = list.findings;
         if (placed_.entity) addEntity();
@@ -110,8 +112,8 @@ class Planner {
 
     void addVisible(const scene::Scene& scene, const InstanceList& list, const View& view,
                     int firstSet) {
-        const BoundsTree::Found found = list.tree.find(
-            Frustum(view.rotation, view.eye, plan_.camera, {plan_.width, plan_.height}));
+        const BoundsTree::Found found = list.tree.find(Frustum(
+            view.rotation, view.eye, plan_.camera, {plan_.width, plan_.height}, options_.errorPx));
         plan_.stats.culledGroups += found.groupsSkipped;
         const int firstId = plan_.stats.instances + 1;
         plan_.stats.instances += static_cast<int>(list.instances.size());
@@ -173,15 +175,15 @@ class Planner {
     /// points and lines, which reach past their geometry.
     bool outside(const Box& box, const glm::dmat4& viewFromObject) const {
         const glm::dmat4 clipFromObject = clip_ * viewFromObject;
-        const double marginX = 1.0 + 4.0 / plan_.width;
-        const double marginY = 1.0 + 4.0 / plan_.height;
+        const double marginX = 1.0 + 2.0 * marginPx_ / plan_.width;
+        const double marginY = 1.0 + 2.0 * marginPx_ / plan_.height;
         unsigned all = 0x3FU;
         for (int corner = 0; corner < 8 && all; ++corner) {
             const glm::dvec4 p =
                 clipFromObject * glm::dvec4(corner & 1 ? box.max.x : box.min.x,
                                             corner & 2 ? box.max.y : box.min.y,
                                             corner & 4 ? box.max.z : box.min.z, 1.0);
-            const double slack = 1e-6 * (std::abs(p.x) + std::abs(p.y) + std::abs(p.w));
+            const double slack = slack_ * (std::abs(p.x) + std::abs(p.y) + std::abs(p.w));
             const double w = p.w;
             unsigned out = 0;
             if (p.x < -marginX * w - slack) out |= 1U;
@@ -222,10 +224,6 @@ class Planner {
             ++plan_.stats.culled;
             return;
         }
-        if (betweenSamples(instance.mesh->bounds, viewFromObject)) {
-            ++plan_.stats.betweenSamples;
-            return;
-        }
         const scene::Model& model = *instance.model;
         DrawItem item;
         item.mesh = instance.mesh;
@@ -244,6 +242,11 @@ class Planner {
                 item.surfaceEye = glm::vec3(seen->eye);
             }
         }
+        // Only now is it known how far the mesh reaches: balanced ones stand out of their surface.
+        if (betweenSamples(item.mesh->bounds, viewFromObject)) {
+            ++plan_.stats.betweenSamples;
+            return;
+        }
         item.viewFromObject = glm::mat4(viewFromObject);
         // Cofactors: the inverse transpose without its division, so flattened objects work too.
         glm::dmat3 cofactor(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
@@ -260,12 +263,13 @@ class Planner {
         fillMaterial(item, instance, list, undressed);
         item.lightSet = firstSet + instance.lightSet;
         if (plan_.lit && skipping_.lights) {
-            const Box& box = instance.mesh->bounds;
+            const Box& box = item.mesh->bounds;
             const glm::dvec3 center(viewFromObject * glm::dvec4((box.min + box.max) * 0.5, 1.0));
             const glm::dvec3 half = (box.max - box.min) * 0.5;
-            const double radius = glm::length(glm::dvec3(glm::length(linear[0]) * half.x,
-                                                         glm::length(linear[1]) * half.y,
-                                                         glm::length(linear[2]) * half.z));
+            const double radius =
+                glm::length(glm::dvec3(glm::length(glm::dvec3(viewFromObject[0])) * half.x,
+                                       glm::length(glm::dvec3(viewFromObject[1])) * half.y,
+                                       glm::length(glm::dvec3(viewFromObject[2])) * half.z));
             item.lightSet =
                 reached_.reduce(item.lightSet, center, radius * kShear, plan_.stats.lightsSkipped);
         }
@@ -397,6 +401,7 @@ class Planner {
     const Skipping& skipping_;
     FramePlan plan_;
     SamplePattern samples_;
+    double marginPx_ = 0.0, slack_ = 0.0;  ///< of culling
     ReachedLights reached_{plan_.lightSets};
     std::vector<int> textureOf_;  ///< of an InstanceList, in plan_.textures
     double aspect_ = 1.0;

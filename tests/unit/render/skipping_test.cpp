@@ -93,7 +93,7 @@ TEST_CASE("a box of which a point is in view is never outside, one told inside h
     for (int i = 0; i < 4000; ++i) {
         const scene::Camera camera = cameraAt(placeWithin(30.0), placeWithin(30.0));
         const glm::ivec2 size(static_cast<int>(between(1, 900)), static_cast<int>(between(1, 900)));
-        const Frustum frustum(render::viewRotation(camera), camera.eye, camera, size);
+        const Frustum frustum(render::viewRotation(camera), camera.eye, camera, size, 0.25);
         const Box box = boxAt(placeWithin(40.0), i % 3 == 0 ? 30.0 : 3.0);
         unsigned planes = Frustum::kAllPlanes;
         const Frustum::Side side = frustum.test(box, planes);
@@ -121,7 +121,7 @@ TEST_CASE("the tree finds the same boxes as a look at each of them") {
         const render::BoundsTree tree(boxes);
         for (int view = 0; view < 20; ++view) {
             const scene::Camera camera = cameraAt(placeWithin(100.0), placeWithin(100.0));
-            const Frustum frustum(render::viewRotation(camera), camera.eye, camera, {64, 48});
+            const Frustum frustum(render::viewRotation(camera), camera.eye, camera, {64, 48}, 0.25);
             const render::BoundsTree::Found found = tree.find(frustum);
             REQUIRE(found.sides.size() == boxes.size());
             for (std::size_t i = 0; i < boxes.size(); ++i) {
@@ -139,13 +139,13 @@ TEST_CASE("a group beside the view costs one test, however many models it holds"
     for (int i = 0; i < 10'000; ++i) boxes.push_back(boxAt(glm::dvec3(500, 0, 0), 5.0));
     const render::BoundsTree tree(boxes);
     const scene::Camera camera = cameraAt(glm::dvec3(0, 0, 10), glm::dvec3(0));
-    const Frustum frustum(render::viewRotation(camera), camera.eye, camera, {64, 64});
+    const Frustum frustum(render::viewRotation(camera), camera.eye, camera, {64, 64}, 0.25);
     CHECK(tree.find(frustum).tests == 1);
     CHECK(tree.find(frustum).groupsSkipped == 1);
     const scene::Camera towards = cameraAt(glm::dvec3(400, 0, 40), glm::dvec3(500, 0, 0));
     scene::Camera wide = towards;
     wide.far = 1000.0;
-    const Frustum within(render::viewRotation(wide), wide.eye, wide, {64, 64});
+    const Frustum within(render::viewRotation(wide), wide.eye, wide, {64, 64}, 0.25);
     CHECK(tree.find(within).tests == 1);
 }
 

@@ -71,6 +71,7 @@ class Collector {
             // Nothing to draw where a matrix of zeros leaves a point.
             const bool nothing =
                 known.mesh->mesh.indices.empty() || glm::dmat3(worldFromGroup) == glm::dmat3(0.0);
+            list_.anyOpen |= known.open;
             boxes_.push_back(nothing ? Box{} : bounds);
             list_.instances.push_back(
                 {&model, known.mesh, worldFromGroup, known.open, lightSet, known.texture});

@@ -41,6 +41,7 @@ struct InstanceList {
     std::vector<PlacedCurve> curves;
     Diagnostics findings;  ///< of the mesh files, each once
     Box bounds;            ///< world space
+    bool anyOpen = false;  ///< of the instances
 };
 
 /// Bounds on what one frame may hold.

@@ -70,8 +70,6 @@ class Planner {
         sight_ = {plan_.camera, plan_.width, plan_.height, options_.errorPx, plan_.shading};
         clip_ = clipFromView(plan_.camera, aspect_, glm::dvec2(0.0));
         samples_ = samplePattern(plan_.samples);
-        marginPx_ = cullingMarginPx(options_.errorPx);
-        slack_ = cullingSlack(plan_.camera, {plan_.width, plan_.height}, options_.errorPx);
         addInstances(scene_, list, view_, {});
         plan_.findings = list.findings;
         if (placed_.entity) addEntity();
@@ -112,8 +110,9 @@ class Planner {
 
     void addVisible(const scene::Scene& scene, const InstanceList& list, const View& view,
                     int firstSet) {
-        const BoundsTree::Found found = list.tree.find(Frustum(
-            view.rotation, view.eye, plan_.camera, {plan_.width, plan_.height}, options_.errorPx));
+        const BoundsTree::Found found =
+            list.tree.find(Frustum(view.rotation, view.eye, plan_.camera,
+                                   {plan_.width, plan_.height}, standOutPx(list.anyOpen)));
         plan_.stats.culledGroups += found.groupsSkipped;
         const int firstId = plan_.stats.instances + 1;
         plan_.stats.instances += static_cast<int>(list.instances.size());
@@ -171,19 +170,25 @@ class Planner {
         plan_.stats.lights += static_cast<int>(list.lights.size());
     }
 
+    /// How far a mesh may stand out of its shape, px: only those made on demand do.
+    double standOutPx(bool open) const { return open ? options_.errorPx : 0.0; }
+
     /// True if the whole box is beyond one side of the view, with a margin for rounding and for
     /// points and lines, which reach past their geometry.
-    bool outside(const Box& box, const glm::dmat4& viewFromObject) const {
+    bool outside(const Box& box, const glm::dmat4& viewFromObject, bool open) const {
+        const double marginPx = cullingMarginPx(standOutPx(open));
+        const double share =
+            cullingSlack(plan_.camera, {plan_.width, plan_.height}, standOutPx(open));
         const glm::dmat4 clipFromObject = clip_ * viewFromObject;
-        const double marginX = 1.0 + 2.0 * marginPx_ / plan_.width;
-        const double marginY = 1.0 + 2.0 * marginPx_ / plan_.height;
+        const double marginX = 1.0 + 2.0 * marginPx / plan_.width;
+        const double marginY = 1.0 + 2.0 * marginPx / plan_.height;
         unsigned all = 0x3FU;
         for (int corner = 0; corner < 8 && all; ++corner) {
             const glm::dvec4 p =
                 clipFromObject * glm::dvec4(corner & 1 ? box.max.x : box.min.x,
                                             corner & 2 ? box.max.y : box.min.y,
                                             corner & 4 ? box.max.z : box.min.z, 1.0);
-            const double slack = slack_ * (std::abs(p.x) + std::abs(p.y) + std::abs(p.w));
+            const double slack = share * (std::abs(p.x) + std::abs(p.y) + std::abs(p.w));
             const double w = p.w;
             unsigned out = 0;
             if (p.x < -marginX * w - slack) out |= 1U;
@@ -220,7 +225,7 @@ class Planner {
         viewFromObject[3] = glm::dvec4(view(glm::dvec3(instance.worldFromObject[3])), 1.0);
         // The model's own box fits closer than that along the world's axes.
         if (skipping_.outside && side == Frustum::Side::straddles &&
-            outside(instance.mesh->bounds, viewFromObject)) {
+            outside(instance.mesh->bounds, viewFromObject, instance.open)) {
             ++plan_.stats.culled;
             return;
         }
@@ -401,7 +406,6 @@ class Planner {
     const Skipping& skipping_;
     FramePlan plan_;
     SamplePattern samples_;
-    double marginPx_ = 0.0, slack_ = 0.0;  ///< of culling
     ReachedLights reached_{plan_.lightSets};
     std::vector<int> textureOf_;  ///< of an InstanceList, in plan_.textures
     double aspect_ = 1.0;

@@ -159,3 +159,23 @@ TEST_CASE("a scene far from the origin is drawn relative to the eye") {
     for (int i = 0; i < 4; ++i)
         for (int j = 0; j < 4; ++j) CHECK(a[i][j] == Approx(b[i][j]).margin(1e-8));
 }
+
+TEST_CASE("a picture that only a model outside the view shows is not asked for") {
+    scene::Scene scene = sceneAt({{0, 0, 0}, {50, 0, 0}});
+    for (std::size_t i = 0; i < 2; ++i) {
+        scene::Texture texture;
+        texture.chess = scene::Chess{};
+        texture.chess->columns = static_cast<int>(2 + i);
+        scene.groups[i].models[0].texture = texture;
+    }
+    scene.lights.emplace_back();
+    const FramePlan plan = planOf(scene);
+    REQUIRE(plan.textures.size() == 1);
+    CHECK(plan.textures[0].chess->columns == 2);
+    CHECK(plan.stats.texturesSkipped == 1);
+    render::MeshLibrary meshes(1 << 20);
+    const FramePlan whole = render::plan(scene, PictureOptions(), scene::BundleAssets(), meshes,
+                                         render::Skipping{false, false, false});
+    CHECK(whole.textures.size() == 2);
+    CHECK(whole.stats.texturesSkipped == 0);
+}

@@ -80,6 +80,19 @@ TEST_CASE("culling never drops a model of which a point is in view") {
     CHECK(inView > 200);  // the test has something to say
 }
 
+TEST_CASE("the error asked for chooses the samples, unless they are asked for") {
+    const scene::Scene scene = sceneAt({{0, 0, 0}});
+    PictureOptions options;
+    CHECK(planOf(scene, options).samples == 4);
+    for (const auto& [errorPx, samples] :
+         {std::pair{2.0, 1}, {1.0, 1}, {0.5, 4}, {0.1, 4}, {0.05, 8}, {0.01, 16}}) {
+        options.errorPx = errorPx;
+        CHECK(planOf(scene, options).samples == samples);
+    }
+    options.samples = 2;
+    CHECK(planOf(scene, options).samples == 2);
+}
+
 TEST_CASE("shading is chosen by what the scene holds") {
     scene::Scene scene = sceneAt({{0, 0, 0}});
     CHECK(planOf(scene).shading == scene::Shading::wireframe);

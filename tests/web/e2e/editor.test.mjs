@@ -28,6 +28,7 @@ async function typeAfter(view, text, typed, erase = 0) {
   await view.page.locator('.cm-content').click();
   await view.page.keyboard.press('Control+f');
   await view.page.locator('.cm-search input[name=search]').fill(text);
+  await view.page.keyboard.press('End'); // the field takes its text in when a key is let go
   await view.page.keyboard.press('Enter');
   await view.page.keyboard.press('Escape');
   await view.page.keyboard.press('ArrowRight');
@@ -84,7 +85,7 @@ test('completion offers the elements and attributes of the schema', async () => 
   const view = await openPage(browser, `${server.url}/#/new`, { viewport: { width: 1200, height: 800 } });
   await settled(view);
   await view.page.locator('.cm-content').waitFor();
-  await typeAfter(view, '<light', ' cu');
+  await typeAfter(view, '<light type="directional"', ' cu');
   await view.page.keyboard.press('Control+Space');
   const options = view.page.locator('.cm-tooltip-autocomplete li');
   await options.first().waitFor();

@@ -40,7 +40,7 @@ const colors = HighlightStyle.define([
   { tag: tags.tagName, color: 'var(--accent)', fontWeight: '600' },
   { tag: tags.angleBracket, color: 'var(--soft)' },
   { tag: tags.attributeName, color: 'var(--ink)' },
-  { tag: tags.attributeValue, color: 'var(--lamp)' },
+  { tag: tags.attributeValue, color: 'var(--code-value)' },
   { tag: tags.comment, color: 'var(--soft)', fontStyle: 'italic' },
   { tag: tags.processingInstruction, color: 'var(--soft)' },
 ]);
@@ -76,7 +76,7 @@ export function createEditor(host: HTMLElement, text: string, changed: (text: st
         closeBrackets(), autocompletion({ icons: false }), highlightActiveLine(), highlightActiveLineGutter(), highlightSelectionMatches(),
         indentUnit.of('    '), EditorState.tabSize.of(4), EditorView.lineWrapping,
         syntaxHighlighting(colors), syntaxHighlighting(defaultHighlightStyle, { fallback: true }), language, theme,
-        EditorView.contentAttributes.of({ 'aria-label': 'XML of the scene', spellcheck: 'false' }),
+        EditorView.contentAttributes.of({ 'aria-label': 'XML of the scene', spellcheck: 'false', tabindex: '0' }),
         keymap.of([...closeBracketsKeymap, ...defaultKeymap, ...searchKeymap, ...historyKeymap, ...foldKeymap, ...completionKeymap, ...lintKeymap, indentWithTab]),
         EditorView.updateListener.of((update) => {
           if (update.docChanged && !outside) changed(update.state.doc.toString());

@@ -219,8 +219,8 @@ export class Viewer {
 
   /** Whether a finding is about the document, not about a file that it includes. */
   isOfDocument(finding: Finding): boolean {
-    const name = `${(this.id ?? 'scene').replace(/^.*\//, '')}.xml`;
-    return !finding.file || /(^|\/)scene\.xml$/.test(finding.file) || finding.file.endsWith(name);
+    const name = this.loose?.main ?? `${(this.id ?? 'scene').replace(/^.*\//, '')}.xml`;
+    return !finding.file || finding.file === name || (!this.loose && /(^|\/)scene\.xml$/.test(finding.file));
   }
 
   origin(): Origin {

@@ -71,7 +71,7 @@ export function ViewerPage({ id, view }: { id: string | null; view: URLSearchPar
     };
   }, [viewer]);
   const facts = viewer.facts.value;
-  const title = facts?.title ?? (id ?? own?.name ?? 'Your scene');
+  const title = facts?.title || (id ?? own?.name ?? 'Your scene');
   useEffect(() => {
     document.title = `${title} · Farol`;
   }, [title]);

@@ -4,5 +4,6 @@ import './style/base.css';
 import './style/gallery.css';
 import './style/viewer.css';
 import './style/panel.css';
+import './style/grade.css';
 
 render(<App />, document.getElementById('app') as HTMLElement);

@@ -1,6 +1,7 @@
 // Files of one's own: dropped or chosen, stored unlisted on the server, and opened.
 import { signal } from '@preact/signals';
 import { Problem, query, request, type Finding, type SceneFacts } from './api.ts';
+import { chooseFiles } from './files.ts';
 import { scenePlace } from './router.ts';
 import { bundleOf, type Loose, type NamedFile } from './scene/bundle.ts';
 
@@ -39,41 +40,5 @@ export async function openFiles(files: readonly NamedFile[]): Promise<void> {
   }
 }
 
-/** The file dialog: files, or a folder with all that is in it. */
-export function pickFiles(folder: boolean): void {
-  const input = document.createElement('input');
-  input.type = 'file';
-  if (folder) input.webkitdirectory = true;
-  else input.multiple = true;
-  input.addEventListener('change', () => {
-    const files = [...(input.files ?? [])];
-    void openFiles(files.map((file) => ({ path: file.webkitRelativePath || file.name, file })));
-  });
-  input.click();
-}
-
-async function walk(entry: FileSystemEntry, out: NamedFile[]): Promise<void> {
-  const path = entry.fullPath.replace(/^\//, '');
-  if (entry.isFile) {
-    const file = await new Promise<File>((done, failed) => (entry as FileSystemFileEntry).file(done, failed));
-    out.push({ path, file });
-    return;
-  }
-  const reader = (entry as FileSystemDirectoryEntry).createReader();
-  for (;;) {
-    // A reader gives at most a hundred entries at a time.
-    const some = await new Promise<FileSystemEntry[]>((done, failed) => reader.readEntries(done, failed));
-    if (some.length === 0) return;
-    for (const one of some) await walk(one, out);
-  }
-}
-
-export async function filesOf(transfer: DataTransfer): Promise<NamedFile[]> {
-  // Entries must be taken before the first await: the list is emptied after the event.
-  const entries = [...transfer.items].map((item) => item.webkitGetAsEntry?.() ?? null);
-  const plain = [...transfer.files].map((file) => ({ path: file.name, file }));
-  if (!entries.some((entry) => entry?.isDirectory)) return plain;
-  const out: NamedFile[] = [];
-  for (const entry of entries) if (entry) await walk(entry, out);
-  return out;
-}
+/** Opens what is chosen in the file dialog. */
+export const pickFiles = (folder: boolean): void => void chooseFiles(folder).then(openFiles);

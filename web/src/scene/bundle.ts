@@ -37,6 +37,8 @@ const archives: [RegExp, string][] = [
 // What operating systems and tools leave behind in folders.
 const litter = /(^|\/)(\.[^/]*|__MACOSX|Thumbs\.db|desktop\.ini|node_modules)(\/|$)/i;
 
+export const isLitter = (path: string): boolean => litter.test(path);
+
 const depth = (path: string): number => path.split('/').length;
 
 /** Without the folders that all paths share. */
@@ -74,7 +76,7 @@ export const meshScene = (path: string): string => `<world>
 `;
 
 export function bundleOf(files: readonly NamedFile[]): Bundle | { message: string } {
-  const kept = files.filter(({ path }) => !litter.test(path));
+  const kept = files.filter(({ path }) => !isLitter(path));
   const only = kept.length === 1 ? kept[0] : undefined;
   const archive = only && archives.find(([ending]) => ending.test(only.path));
   const bytes = kept.reduce((sum, { file }) => sum + file.size, 0);

@@ -3,13 +3,16 @@ import { signal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 import { place } from '../router.ts';
 import { dark, toggleTheme } from '../theme.ts';
-import { filesOf, local, openFiles, uploading, uploadProblem } from '../upload.ts';
+import { local, openFiles, uploading, uploadProblem } from '../upload.ts';
+import { filesOf } from '../files.ts';
+import { lazyView } from './lazy.tsx';
 import { Gallery } from './gallery.tsx';
 import { Mark } from './icons.tsx';
 import { Findings, Toast, Tool } from './ui.tsx';
 import { ViewerPage } from './viewer_page.tsx';
 
 const dropping = signal(false);
+const GradePage = lazyView(() => import('./grade_page.tsx').then((module) => module.GradePage), 'the grade page');
 
 function useDrops(): void {
   useEffect(() => {
@@ -87,6 +90,7 @@ export function App() {
       {(where.page === 'scene' || where.page === 'new') && (
         <ViewerPage key={id ?? `new ${local.value?.count ?? 0}`} id={id} view={where.page === 'scene' ? where.view : new URLSearchParams()} />
       )}
+      {where.page === 'grade' && <GradePage />}
       <UploadNote />
       <Toast />
     </>

@@ -6,7 +6,7 @@ import { createEditor, type Editor as CodeEditor } from '../editor/codemirror.ts
 import type { Viewer } from '../scene/viewer.ts';
 import { storeEdited } from '../scene/store_edited.ts';
 import { Tool } from './ui.tsx';
-import { saveBlob } from './toolbar.tsx';
+import { saveBlob } from './save.ts';
 
 export function Editor({ viewer }: { viewer: Viewer }) {
   const host = useRef<HTMLDivElement>(null);

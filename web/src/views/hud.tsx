@@ -4,7 +4,8 @@ import type { Latency } from '../frames/timing.ts';
 import type { Viewer } from '../scene/viewer.ts';
 import { recall, remember } from '../storage.ts';
 
-export const hudShown = signal(recall('hud') !== 'off');
+// It would cover a small picture: there it is shown when asked for.
+export const hudShown = signal(recall('hud') === 'on' || (recall('hud') !== 'off' && matchMedia('(min-width: 40rem)').matches));
 export const cullingShown = signal(false);
 
 export function showHud(on: boolean): void {
@@ -29,7 +30,7 @@ export function HudView({ viewer }: { viewer: Viewer }) {
   return (
     <div class="hud" aria-hidden="true">
       <p>
-        <b>{hud.moving && hud.fps > 0 ? `${hud.fps.toFixed(0)} fps` : 'at rest'}</b>
+        <b>{!hud.moving ? 'at rest' : hud.fps > 0 ? `${hud.fps.toFixed(0)} fps` : 'moving'}</b>
         <span>{hud.width} × {hud.height}</span><span>{(hud.bytes / 1024).toFixed(0)} kB</span>
       </p>
       <svg class="bar" viewBox="0 0 100 4" preserveAspectRatio="none">

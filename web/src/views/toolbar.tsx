@@ -6,17 +6,10 @@ import type { Viewer } from '../scene/viewer.ts';
 import { helpKeys } from './help.ts';
 import { hudShown, showHud } from './hud.tsx';
 import { openPanel, panel } from './viewer_page.tsx';
+import { saveBlob } from './save.ts';
 import { copy, say, Tool } from './ui.tsx';
 
 const helpShown = signal(false);
-
-export function saveBlob(blob: Blob, name: string): void {
-  const link = document.createElement('a');
-  link.href = URL.createObjectURL(blob);
-  link.download = name;
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(link.href), 10000);
-}
 
 const fileName = (viewer: Viewer): string => (viewer.id ?? 'scene').replaceAll('/', '-').slice(0, 60);
 

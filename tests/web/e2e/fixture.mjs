@@ -96,7 +96,7 @@ export async function settled(view) {
     await view.page.waitForTimeout(120);
     const seq = Number(await view.page.locator('.stage canvas').getAttribute('data-seq'));
     const full = view.full().at(-1);
-    const still = full && seq === Number(full.seq) && seq === last && view.pictures.filter((one) => Number(one.seq) > seq).length === 0;
+    const still = full && seq === Number(full.seq) && seq === last && !view.pictures.some((one) => one.session === full.session && Number(one.seq) > seq);
     calm = still ? calm + 1 : 0;
     last = seq;
   }

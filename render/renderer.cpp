@@ -2,6 +2,7 @@
 
 #include <cctype>
 #include <chrono>
+#include <map>
 #include <set>
 
 #include "generator/registry.h"
@@ -88,6 +89,20 @@ std::string describe(const FramePlan& frame, double timeS) {
                   stats.lights, stats.textures, frame.camera.eye.x, frame.camera.eye.y,
                   frame.camera.eye.z);
     return text.data();
+}
+
+void addElements(SceneReport& report, const InstanceList& list) {
+    std::map<const scene::Model*, std::uint32_t> known;
+    for (const Instance& instance : list.instances) {
+        const scene::Model& model = *instance.model;
+        const auto [at, isNew] =
+            known.emplace(&model, static_cast<std::uint32_t>(report.elements.size()));
+        if (isNew)
+            report.elements.push_back({model.id, model.name,
+                                       model.file.empty() ? model.command : model.file,
+                                       model.where});
+        report.copies.push_back(at->second);
+    }
 }
 
 /// Adds what was repaired in mesh files; in strict that is an error.
@@ -187,6 +202,10 @@ SceneReport inspect(const Job& job) {
         chooseCamera(scene, job.options, list.bounds, static_cast<double>(size.x) / size.y);
     report.models = static_cast<int>(list.instances.size());
     report.lights = static_cast<int>(list.lights.size());
+    addElements(report, list);
+    if (scene.entity)  // it is drawn after the scene, and numbered so
+        addElements(report,
+                    collect(*scene.entity, job.options.timeS, false, *prepared.assets, meshes));
     std::set<std::string> textures;
     for (const Instance& instance : list.instances) {
         report.triangles += static_cast<std::int64_t>(instance.mesh->mesh.triangles());

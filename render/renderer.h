@@ -58,6 +58,13 @@ struct Picture {
     StageTimes times;
 };
 
+/// A model's element in the document.
+struct ModelElement {
+    std::string id, name;
+    std::string file;  ///< of its mesh, or the command that makes it, as written
+    Location where;
+};
+
 /// Facts about a scene without drawing it.
 struct SceneReport {
     Diagnostics diagnostics;
@@ -69,7 +76,9 @@ struct SceneReport {
     scene::Camera camera;
     std::int64_t triangles = 0;
     int models = 0, lights = 0, textures = 0;
-    std::int64_t textureBytes = 0;  ///< of the files, undecoded
+    std::int64_t textureBytes = 0;       ///< of the files, undecoded
+    std::vector<ModelElement> elements;  ///< that are drawn, in document order
+    std::vector<std::uint32_t> copies;   ///< the element of the number i + 1 in a layer=id picture
 };
 
 /// Draws scenes with one GL context of its own. Not shareable between threads: each thread makes

@@ -38,6 +38,13 @@ struct Turn {
     std::string session;   ///< chosen by the client; empty: not one of a session
     std::int64_t seq = 0;  ///< grows from frame to frame
 };
+/// A round of pictures: the eye goes about the target once.
+struct Turntable {
+    int frames = 24;
+    double fps = 12.0;
+    bool apng = false;  ///< one animated PNG, else multipart/x-mixed-replace
+};
+inline constexpr const char* kFrameBoundary = "farol-frame";
 
 template <typename Result>
 struct Done {
@@ -75,6 +82,11 @@ class Backend {
                                          const Turn& turn) = 0;
     virtual Done<render::SceneReport> inspect(const render::Job& job) = 0;
     virtual Done<std::string> mesh(const MeshJob& job) = 0;
+    /// The pictures of a turn as one body; the content type is by `turn`.
+    virtual Done<render::Picture> turntable(const render::Job& job, const Turntable& turn) = 0;
+    /// A picture of a text, by size and format of the options.
+    virtual Done<render::Picture> notice(const std::string& text,
+                                         const render::PictureOptions& options) = 0;
     /// The files of an archive (scene/archive.h).
     virtual Done<scene::Bundle> unpack(const std::string& archive) = 0;
     /// Draws a tiny known scene and checks its pixels. Throws std::runtime_error with the reason

@@ -66,12 +66,28 @@ json toJson(const render::SceneReport& report) {
     return out;
 }
 
+json modelsOf(const render::SceneReport& report) {
+    json models = json::array();
+    for (const render::ModelElement& one : report.elements) {
+        json entry = {{"model", one.file},
+                      {"file", one.where.file},
+                      {"line", one.where.line},
+                      {"column", one.where.column}};
+        if (!one.id.empty()) entry["id"] = one.id;
+        if (!one.name.empty()) entry["name"] = one.name;
+        models.push_back(std::move(entry));
+    }
+    return {{"models", models}, {"copies", report.copies}};
+}
+
 json linksOf(const ServedScene& scene) {
     const std::string self = "/v1/scenes/" + http::percentEncodePath(scene.id);
     return {{"self", self},
             {"source", self + "/source"},
             {"image", self + "/image"},
-            {"thumbnail", self + "/thumbnail"}};
+            {"thumbnail", self + "/thumbnail"},
+            {"turntable", self + "/turntable"},
+            {"models", self + "/models"}};
 }
 
 json describe(const ServedScene& scene, const render::SceneReport& report,

@@ -12,6 +12,9 @@ nlohmann::json toJson(const scene::Camera& camera);
 nlohmann::json toJson(const render::Stats& stats);
 /// Title, size, camera, counts, diagnostics.
 nlohmann::json toJson(const render::SceneReport& report);
+/// {"models": the elements with their places, "copies": the model of each number of a layer=id
+/// picture, the first for number 1}
+nlohmann::json modelsOf(const render::SceneReport& report);
 /// Paths of a served scene's resources.
 nlohmann::json linksOf(const ServedScene& scene);
 

@@ -3,16 +3,13 @@
 #include <charconv>
 #include <string_view>
 
+#include "server/http/text.h"
+
 namespace farol::server {
 namespace {
 
+using http::trim;
 using std::string_view;
-
-string_view trim(string_view text) {
-    while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
-    while (!text.empty() && (text.back() == ' ' || text.back() == '\t')) text.remove_suffix(1);
-    return text;
-}
 
 // 3 for the type itself, 2 for its family, 1 for anything, 0 for no match.
 int specificity(string_view range, string_view type) {

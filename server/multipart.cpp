@@ -3,10 +3,12 @@
 #include <algorithm>
 
 #include "scene/error.h"
+#include "server/http/text.h"
 
 namespace farol::server {
 namespace {
 
+using http::trim;
 using std::string_view;
 
 [[noreturn]] void refuse(const std::string& why) {
@@ -19,12 +21,6 @@ std::string lower(string_view text) {
         return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
     });
     return out;
-}
-
-string_view trim(string_view text) {
-    while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
-    while (!text.empty() && (text.back() == ' ' || text.back() == '\t')) text.remove_suffix(1);
-    return text;
 }
 
 // A token or a quoted string at the start of `rest`, removed from it.

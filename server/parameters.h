@@ -39,7 +39,8 @@ std::int64_t wholeNumber(const std::string& name, const std::string& value, std:
                          std::int64_t max);
 
 /// The names that turnOf() reads, for ParameterRules::ownNames.
-inline const std::vector<std::string> kTurnNames = {"session", "seq"};
+/// The own parameters of routes that draw: those of a turn, and what an error becomes.
+inline const std::vector<std::string> kDrawnNames = {"session", "seq", "onerror"};
 
 /// Which frame of which client a picture is. Throws Error option.range for a session that is not
 /// 1..64 letters, digits, "-", "." or "_", for a seq that is not a whole number in 0..2^53-1, and

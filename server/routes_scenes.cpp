@@ -88,6 +88,8 @@ std::shared_ptr<const Service::Known> Service::known(const ServedScene& scene) {
     fresh->version = scene.version;
     try {
         fresh->report = backend_.inspect(jobOfScene(scene)).result;
+        fresh->report.elements = {};  // one for each copy: asked for seldom, and too much to keep
+        fresh->report.copies = {};
     } catch (const Error& error) {
         fresh->errors = error.diagnostics();
     }
@@ -101,10 +103,23 @@ void Service::remember(const std::string& id, std::shared_ptr<const Known> facts
     known_[id] = std::move(facts);
 }
 
+// All words must be in the id, the title or the description.
+bool Service::isFound(const ServedScene& scene, const std::string& words) {
+    const auto facts = known(scene);
+    const std::string text =
+        scene::lowerCase(scene.id + "\n" + facts->report.title + "\n" + facts->report.description);
+    const std::vector<std::string> all = splitWords(scene::lowerCase(words));
+    return std::all_of(all.begin(), all.end(), [&](const std::string& word) {
+        return text.find(word) != std::string::npos;
+    });
+}
+
 http::Response Service::listScenes(const Call& call) {
-    const Parameters wanted = readParameters(call.request.query, {false, false, {"page"}, {}});
+    const Parameters wanted = readParameters(call.request.query, {false, false, {"page", "q"}, {}});
     std::vector<ServedScene> all = scenes_.list();
     for (const store::Entry& entry : store_->list()) all.push_back(uploadOf(entry));
+    if (const std::string words = wanted.ownValue("q"); !words.empty())
+        std::erase_if(all, [&](const ServedScene& one) { return !isFound(one, words); });
     const int pages = std::max(1, (static_cast<int>(all.size()) + kPageSize - 1) / kPageSize);
     const auto page = wholeNumber("page", wanted.ownValue("page", "1"), 1, pages);
     json scenes = json::array();
@@ -126,6 +141,22 @@ http::Response Service::getScene(const Call& call) {
     const auto facts = known(scene);
     return tagged(call, dump(describe(scene, facts->report, facts->errors), 2) + "\n",
                   "application/json");
+}
+
+http::Response Service::getModels(const Call& call) {
+    readParameters(call.request.query, {});
+    const ServedScene scene = sceneOf(call.parameter);
+    const render::Job job = jobOfScene(scene);
+    const std::string tag = entityTag({job.xml, scene.version, backend_.version(), "models"});
+    http::Response response;
+    response.set("ETag", tag);
+    if (matchesTag(call.request.header("if-none-match"), tag)) {
+        response.status = 304;
+        return response;
+    }
+    response.contentType = "application/json";
+    response.body = dump(modelsOf(backend_.inspect(job).result)) + "\n";
+    return response;
 }
 
 http::Response Service::getSource(const Call& call) {

@@ -3,6 +3,7 @@
 
 #include "scene/digest.h"
 #include "scene/words.h"
+#include "server/http/text.h"
 #include "server/http/uri.h"
 #include "server/json.h"
 #include "server/problem.h"
@@ -25,7 +26,7 @@ std::optional<std::string> bearerOf(const http::Request& request) {
     const std::size_t space = header->find(' ');
     if (space == std::string::npos || !scene::sameWord(header->substr(0, space), "bearer"))
         return std::nullopt;
-    return std::string(scene::trimmed(std::string_view(*header).substr(space)));
+    return std::string(http::trim(std::string_view(*header).substr(space)));
 }
 
 // The document of the upload in the place of the job's own, beside the job's files.
@@ -87,6 +88,8 @@ http::Response Service::postScene(const Call& call) {
     job.strict = wanted.strict;
     const auto facts = std::make_shared<Known>();
     facts->report = backend_.inspect(job).result;  // a scene that cannot be drawn is not kept
+    facts->report.elements = {};
+    facts->report.copies = {};
     const store::SceneStore::Put kept = store_->put(*upload.bundle, listed);
     facts->version = kept.entry.id;
     remember(kept.entry.id, facts);

@@ -25,14 +25,31 @@ std::string idOf(const std::string& path) {
     return path.substr(0, path.size() - kSuffix.size());
 }
 
-std::string versionOf(const scene::Assets& files) {
-    std::string all;
-    for (const std::string& path : files.list())
-        all.append(path).append("\n").append(files.version(path)).append("\n");
-    return scene::contentDigest(all);
-}
+constexpr std::size_t kMaxDigests = 20'000;
 
 }  // namespace
+
+// Two servers with the same files, or one after a copy, make the same tags.
+std::string SceneFolder::digestOf(const scene::Assets& files, const std::string& path) const {
+    const std::string stamp = files.version(path);
+    {
+        const std::lock_guard lock(mutex_);
+        if (const auto known = digests_.find(stamp); known != digests_.end()) return known->second;
+    }
+    const auto bytes = files.read(path);
+    if (!bytes || stamp.empty()) return "";
+    std::string digest = scene::contentDigest(*bytes);
+    const std::lock_guard lock(mutex_);
+    if (digests_.size() >= kMaxDigests) digests_.clear();
+    return digests_[stamp] = std::move(digest);
+}
+
+std::string SceneFolder::versionOf(const scene::Assets& files) const {
+    std::string all;
+    for (const std::string& path : files.list())
+        all.append(path).append("\n").append(digestOf(files, path)).append("\n");
+    return scene::contentDigest(all);
+}
 
 SceneFolder::SceneFolder(std::string root) : root_(std::move(root)), files_(root_) {}
 

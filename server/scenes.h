@@ -1,6 +1,8 @@
 #pragma once
 
+#include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,8 +18,8 @@ namespace farol::server {
 /// or solar-system.xml.
 struct ServedScene {
     std::string id;
-    std::string path;     ///< of the document, below the served folder
-    std::string version;  ///< changes when the document or a file beside it may have changed
+    std::string path;                         ///< of the document, below the served folder
+    std::string version;                      ///< digest of the document and the files beside it
     std::optional<store::Entry> stored = {};  ///< of an upload: it is not in the folder
 
     std::string fileName() const { return path.substr(path.rfind('/') + 1); }
@@ -45,8 +47,13 @@ class SceneFolder {
 
   private:
     bool isPart(const std::string& path) const;
+    std::string versionOf(const scene::Assets& files) const;
+    std::string digestOf(const scene::Assets& files, const std::string& path) const;
     std::string root_;
     scene::FolderAssets files_;
+    mutable std::mutex mutex_;
+    /// Digests of contents by what tells that a file may have changed. Bounded.
+    mutable std::map<std::string, std::string> digests_;
 };
 
 }  // namespace farol::server

@@ -69,6 +69,8 @@ std::vector<Route> Service::routes() {
         {"GET", "/v1/scenes/{id}", call(&Service::getScene)},
         {"DELETE", "/v1/scenes/{id}", call(&Service::deleteScene)},
         {"GET", "/v1/scenes/{id}/source", call(&Service::getSource)},
+        {"GET", "/v1/scenes/{id}/models", call(&Service::getModels)},
+        {"GET", "/v1/scenes/{id}/turntable", call(&Service::getTurntable)},
         {"GET", "/v1/scenes/{id}/image", image({})},
         {"GET", "/v1/scenes/{id}/thumbnail",
          image({{"width", "320"}, {"height", "240"}, {"format", "jpeg"}, {"quality", "85"}})},
@@ -105,6 +107,7 @@ http::Response Service::handle(const http::Request& request, http::Body& body) {
         response = problemResponse({500, "internal", "The server met an error of its own.", {}, {}},
                                    request.id);
     }
+    if (response.status >= 400) drawProblem(request, response);
     finish(request, response);
     return response;
 }

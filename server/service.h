@@ -70,6 +70,8 @@ class Service final : public http::Handler {
     http::Response deleteScene(const Call& call);
     http::Response getScene(const Call& call);
     http::Response getSource(const Call& call);
+    http::Response getModels(const Call& call);
+    http::Response getTurntable(const Call& call);
     http::Response getImage(const Call& call, const http::Fields& preset);
     http::Response listPrimitives(const Call& call);
     http::Response getPrimitive(const Call& call);
@@ -78,8 +80,11 @@ class Service final : public http::Handler {
     render::Job jobOfScene(const ServedScene& scene) const;
     Upload takeUpload(const Call& call, const std::string& base) const;
     void authorize(const Call& call) const;
+    bool isFound(const ServedScene& scene, const std::string& words);
     std::shared_ptr<const Known> known(const ServedScene& scene);
     void remember(const std::string& id, std::shared_ptr<const Known> facts);
+    /// The problem as a picture, where the request wants that and a worker can draw it.
+    void drawProblem(const http::Request& request, http::Response& response);
     void finish(const http::Request& request, http::Response& response) const;
     void sweep();
 

@@ -7,13 +7,14 @@
 #include "scene/assets.h"
 #include "scene/digest.h"
 #include "scene/words.h"
+#include "server/http/text.h"
 #include "server/multipart.h"
 
 namespace farol::server {
 namespace {
 
 std::string mediaType(const std::string& header) {
-    return scene::lowerCase(scene::trimmed(std::string_view(header).substr(0, header.find(';'))));
+    return scene::lowerCase(http::trim(std::string_view(header).substr(0, header.find(';'))));
 }
 
 // Some clients send "C:\folder\file" or a path with a leading "./".

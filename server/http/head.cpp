@@ -4,18 +4,13 @@
 #include <array>
 #include <charconv>
 
+#include "server/http/text.h"
 #include "server/http/uri.h"
 
 namespace farol::server::http {
 namespace {
 
 using std::string_view;
-
-string_view trim(string_view text) {
-    while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
-    while (!text.empty() && (text.back() == ' ' || text.back() == '\t')) text.remove_suffix(1);
-    return text;
-}
 
 std::string lower(string_view text) {
     std::string out(text);

@@ -7,6 +7,7 @@
 #include "generator/registry.h"
 #include "render/image_file.h"
 #include "scene/archive.h"
+#include "server/worker/pictures.h"
 
 namespace farol::server::worker {
 namespace {
@@ -90,6 +91,12 @@ Reply work(render::Renderer& renderer, const Request& request) {
                 break;
             case Task::unpack:
                 reply.bundle = scene::readArchive(request.job.archive);
+                break;
+            case Task::turntable:
+                reply.picture = turnAround(renderer, request.job, request.turntable);
+                break;
+            case Task::notice:
+                reply.picture = drawNotice(request.notice, request.job.options);
                 break;
             case Task::check:
                 check(renderer);

@@ -79,16 +79,28 @@ void visit(Archive& archive, T& value) {
     archive(bytes, contentType, width, height, diagnostics, camera, stats, times);
 }
 
+template <typename Archive, Is<ModelElement> T>
+void visit(Archive& archive, T& value) {
+    auto& [id, name, file, where] = value;
+    archive(id, name, file, where);
+}
+
 template <typename Archive, Is<SceneReport> T>
 void visit(Archive& archive, T& value) {
     auto& [diagnostics, title, description, width, height, animated, plays, camera, triangles,
-           models, lights, textures, textureBytes] = value;
+           models, lights, textures, textureBytes, elements, copies] = value;
     archive(diagnostics, title, description, width, height, animated, plays, camera, triangles,
-            models, lights, textures, textureBytes);
+            models, lights, textures, textureBytes, elements, copies);
 }
 }  // namespace render
 
 namespace server {
+template <typename Archive, Is<Turntable> T>
+void visit(Archive& archive, T& value) {
+    auto& [frames, fps, apng] = value;
+    archive(frames, fps, apng);
+}
+
 template <typename Archive, Is<MeshJob> T>
 void visit(Archive& archive, T& value) {
     auto& [words, format] = value;
@@ -133,7 +145,7 @@ std::string packed(const T& value) {
 }  // namespace
 
 std::string pack(const Request& request) {
-    const auto& [task, job, mesh] = request;
+    const auto& [task, job, mesh, turntable, notice] = request;
     const auto& [name, xml, assets, options, strict, identity, archive, drawUnseen] = job;
     std::string folder;
     Files files;
@@ -144,7 +156,8 @@ std::string pack(const Request& request) {
             if (auto bytes = assets->read(path)) files.emplace_back(path, std::move(*bytes));
     }
     Packer packer;
-    packer(task, name, xml, folder, files, options, strict, identity, archive, drawUnseen, mesh);
+    packer(task, name, xml, folder, files, options, strict, identity, archive, drawUnseen, mesh,
+           turntable, notice);
     return packer.take();
 }
 
@@ -155,7 +168,7 @@ Request unpackRequest(std::string_view bytes) {
     Unpacker unpacker(bytes);
     render::Job& job = request.job;
     unpacker(request.task, job.name, job.xml, folder, files, job.options, job.strict, job.identity,
-             job.archive, job.drawUnseen, request.mesh);
+             job.archive, job.drawUnseen, request.mesh, request.turntable, request.notice);
     unpacker.end();
     if (!folder.empty())
         job.assets = std::make_shared<scene::FolderAssets>(folder);

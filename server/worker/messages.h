@@ -9,12 +9,14 @@
 /// What the service and its workers say to each other.
 namespace farol::server::worker {
 
-enum class Task { render, inspect, mesh, unpack, check };
+enum class Task { render, inspect, mesh, unpack, turntable, notice, check };
 
 struct Request {
     Task task = Task::check;
     render::Job job;  ///< of render and inspect; of unpack, its archive
     MeshJob mesh;
+    Turntable turntable;
+    std::string notice;  ///< the text; its picture is by the job's options
 };
 
 /// A served folder travels by its path, which the worker may read; a bundle by its files.

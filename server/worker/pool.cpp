@@ -254,6 +254,29 @@ Done<std::string> WorkerPool::mesh(const MeshJob& job) {
     return {std::move(done.result.mesh), done.queueMs};
 }
 
+Done<render::Picture> WorkerPool::turntable(const render::Job& job, const Turntable& turn) {
+    Request request;
+    request.task = Task::turntable;
+    request.job = job;
+    request.turntable = turn;
+    Done<Reply> done = ask(pack(request), sceneOf(job));
+    done.result.picture.contentType =
+        turn.apng ? "image/apng"
+                  : std::string("multipart/x-mixed-replace; boundary=") + kFrameBoundary;
+    return {std::move(done.result.picture), done.queueMs};
+}
+
+Done<render::Picture> WorkerPool::notice(const std::string& text,
+                                         const render::PictureOptions& options) {
+    Request request;
+    request.task = Task::notice;
+    request.notice = text;
+    request.job.options = options;
+    Done<Reply> done = ask(pack(request), "");
+    done.result.picture.contentType = render::contentType(options.format);
+    return {std::move(done.result.picture), done.queueMs};
+}
+
 Done<scene::Bundle> WorkerPool::unpack(const std::string& archive) {
     Request request;
     request.task = Task::unpack;

@@ -41,6 +41,9 @@ class WorkerPool final : public Backend {
                                  const Turn& turn) override;
     Done<render::SceneReport> inspect(const render::Job& job) override;
     Done<std::string> mesh(const MeshJob& job) override;
+    Done<render::Picture> turntable(const render::Job& job, const Turntable& turn) override;
+    Done<render::Picture> notice(const std::string& text,
+                                 const render::PictureOptions& options) override;
     Done<scene::Bundle> unpack(const std::string& archive) override;
     void check() override;
     BackendState state() const override;

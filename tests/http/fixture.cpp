@@ -34,6 +34,23 @@ server::Done<std::string> FakeBackend::mesh(const server::MeshJob& job) {
     return {text + job.format, 0.0};
 }
 
+server::Done<render::Picture> FakeBackend::turntable(const render::Job& job,
+                                                     const server::Turntable& turn) {
+    ++renders;
+    render::Picture picture;
+    picture.bytes = std::to_string(turn.frames) + " pictures of " + job.name;
+    picture.contentType = turn.apng ? "image/apng" : "multipart/x-mixed-replace; boundary=f";
+    return {picture, 0.0};
+}
+
+server::Done<render::Picture> FakeBackend::notice(const std::string& text,
+                                                  const render::PictureOptions&) {
+    render::Picture picture;
+    picture.bytes = "picture of: " + text;
+    picture.contentType = "image/png";
+    return {picture, 0.0};
+}
+
 server::Done<scene::Bundle> FakeBackend::unpack(const std::string& archive) {
     const std::string document = "<world>" + std::to_string(archive.size()) + "</world>";
     return {scene::Bundle{"scene.xml", {{"scene.xml", document}}}, 0.0};

@@ -26,6 +26,10 @@ class FakeBackend final : public server::Backend {
                                          const server::Turn& turn) override;
     server::Done<render::SceneReport> inspect(const render::Job& job) override;
     server::Done<std::string> mesh(const server::MeshJob& job) override;
+    server::Done<render::Picture> turntable(const render::Job& job,
+                                            const server::Turntable& turn) override;
+    server::Done<render::Picture> notice(const std::string& text,
+                                         const render::PictureOptions& options) override;
     server::Done<scene::Bundle> unpack(const std::string& archive) override;
     void check() override;
     server::BackendState state() const override { return {1, 0, 0, {}, 0, 0}; }

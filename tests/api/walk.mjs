@@ -65,8 +65,11 @@ const xml = '<world><group><models><model file="box_1_2.3d"/></models></group></
 const sample = { method: 'POST', headers: { 'Content-Type': 'application/xml' }, body: xml };
 const upload = await (await fetch(`${base}/v1/scenes`, sample)).json();
 
+// The page's files have names of their content; a build without npm has none.
+const asset = (await (await fetch(`${base}/`)).text()).match(/\/assets\/([\w.-]+)/)?.[1];
+
 /** A target that the operation answers with 200, 201 or 204. */
-const targetOf = (pattern) => pattern.replace('{id}', upload.id).replace('{shape}', 'cone');
+const targetOf = (pattern) => pattern.replace('{id}', upload.id).replace('{shape}', 'cone').replace('{file}', asset ?? 'none');
 const fits = { args: '1,2,4,3', background: 'red', entity: 'scene.xml', eye: '3,2,5', target: '0,0,0', up: '0,1,0', q: 'box' };
 
 /** Values in the schema, and values beyond it. */
@@ -87,7 +90,7 @@ async function walk(pattern, method, operation) {
     const target = targetOf(pattern);
     if (method === 'delete') return;  // below, when nothing else needs the scene
     const { answer } = await ask(operation, method, target + (pattern.includes('{shape}') ? '?args=1,2,4,3' : ''), options);
-    check(answer.ok, `${method} ${pattern} is answered`);
+    check(answer.ok || (pattern.includes('{file}') && !asset), `${method} ${pattern} is answered`);
     await ask(operation, method, `${target}?nonsense=1`, options);
     const tag = answer.headers.get('etag');
     if (tag) {

@@ -40,7 +40,7 @@ std::set<std::string> codesInSources() {
                 matches(readFile(entry.path()),
                         "\"((?:xml|scene|asset|shape|mesh|image|limit|option|http|busy|worker|"
                         "bundle|store)"
-                        "\\.[a-z]+(?:-[a-z]+)*)\""));
+                        "\\.[a-z]+(?:-[a-z]+)*|not-ready)\""));
         }
     }
     for (const char* file : {"scene.xml", "image.png"}) all.erase(file);

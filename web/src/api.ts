@@ -26,7 +26,7 @@ export interface SceneFacts {
   camera?: LookAt;
   counts?: { models: number; lights: number; textures: number; triangles: number; textureBytes: number };
   diagnostics: Finding[];
-  links: { self: string; source: string; image: string; thumbnail: string };
+  links: { self: string; source: string; image: string; thumbnail: string; turntable?: string };
   upload?: boolean;
   expires?: string | null;
 }

@@ -65,6 +65,7 @@ export class Viewer {
   private typeTimer: ReturnType<typeof setTimeout> | undefined;
   private latest: Frame | null = null;
   private latestSeq = 0;
+  private closed = false;
   private known: { text: string; facts: SceneFacts & Partial<ModelPlaces> } | null = null; // of the edited document
 
   constructor(readonly id: string | null, private readonly loose: Loose | null = null) {
@@ -104,6 +105,7 @@ export class Viewer {
     } else {
       try {
         const facts = await getScene(this.id);
+        if (this.closed) return;
         this.facts.value = facts;
         this.home ??= facts.camera ?? null;
         this.clock.range(facts.animated ?? false, facts.playFrom ?? 0, facts.loopSeconds ?? 60);
@@ -118,10 +120,13 @@ export class Viewer {
         return;
       }
     }
-    this.loop.settle();
+    // The page takes its shape by what is known now; then a quick picture, and the full one.
+    await new Promise((done) => setTimeout(done, 0));
+    if (!this.closed) this.loop.move();
   }
 
   close(): void {
+    this.closed = true;
     this.clock.stop();
     this.loop.stop();
     clearTimeout(this.linkTimer);
@@ -238,6 +243,12 @@ export class Viewer {
       if (this.home && this.home.up[1] < 0.999) out['up'] = formatVec(this.home.up);
     }
     return out;
+  }
+
+  /** Of a round trip about the scene, which begins with this view. */
+  turntableOptions(): Options {
+    const { fov: _fitted, ...kept } = this.pictureOptions();
+    return { ...kept, width: 480, height: 360 };
   }
 
   private sizeOptions(): Options {

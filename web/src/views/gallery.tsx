@@ -3,6 +3,7 @@ import { signal } from '@preact/signals';
 import { useEffect, useRef, useState } from 'preact/hooks';
 import { findingsOf, listScenes, sentence, type SceneFacts } from '../api.ts';
 import { scenePlace } from '../router.ts';
+import { thumbnail } from '../thumbnails.ts';
 import { pickFiles } from '../upload.ts';
 import { Icon } from './icons.tsx';
 
@@ -44,15 +45,28 @@ async function load(page: number): Promise<void> {
 }
 
 function Thumbnail({ scene }: { scene: SceneFacts }) {
-  const [attempt, setAttempt] = useState(0);
-  if (!scene.valid || attempt > 4)
-    return <div class="thumbnail none">{scene.valid ? 'no picture' : 'cannot be read'}</div>;
-  // A busy server answers 503: ask again a little later, and not for ever.
-  const retry = (): void => void setTimeout(() => setAttempt(attempt + 1), 1000 * (attempt + 1));
-  const shown = (event: Event): void => (event.currentTarget as HTMLElement).classList.add('loaded');
+  const frame = useRef<HTMLDivElement>(null);
+  const [picture, setPicture] = useState('');
+  const [failed, setFailed] = useState(false);
+  useEffect(() => {
+    if (!scene.valid) return;
+    const abort = new AbortController();
+    const observer = new IntersectionObserver((entries) => {
+      if (!entries.some((entry) => entry.isIntersecting)) return;
+      observer.disconnect();
+      thumbnail(scene.links.thumbnail, abort.signal).then(setPicture, () => setFailed(!abort.signal.aborted));
+    }, { rootMargin: '200px' });
+    observer.observe(frame.current as HTMLDivElement);
+    return () => {
+      observer.disconnect();
+      abort.abort();
+    };
+  }, [scene.links.thumbnail]);
+  if (!scene.valid || failed) return <div class="thumbnail none">{scene.valid ? 'no picture' : 'cannot be read'}</div>;
   return (
-    <img key={attempt} class="thumbnail" loading="lazy" width={320} height={240} alt="" decoding="async"
-      src={scene.links.thumbnail} onError={retry} onLoad={shown} />
+    <div class="thumbnail" ref={frame}>
+      {picture && <img width={320} height={240} alt="" decoding="async" src={picture} onLoad={(event) => event.currentTarget.classList.add('loaded')} />}
+    </div>
   );
 }
 

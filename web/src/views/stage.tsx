@@ -1,11 +1,24 @@
 // The picture, and what lies over it.
 import { useEffect, useRef } from 'preact/hooks';
 import { listen, type Actions } from '../input.ts';
+import { cameraLightOf } from '../scene/camera_light.ts';
 import type { Viewer } from '../scene/viewer.ts';
 import { HudView } from './hud.tsx';
 
 const help =
   'Drag or arrow keys orbit, right drag or two fingers pan, wheel or plus and minus zoom, W A S D move the focus, R resets, Space plays';
+
+function LightNote({ viewer }: { viewer: Viewer }) {
+  useEffect(() => {
+    viewer.loadText().catch((fault: unknown) => viewer.report(fault));
+  }, [viewer]);
+  const light = cameraLightOf(viewer.text.value ?? '');
+  return (
+    <p class="light-note" role="status">
+      {light ? `Camera light: alpha ${light.alpha}°, beta ${light.beta}°` : 'No camera light yet: A Z, X C add one'}
+    </p>
+  );
+}
 
 export function Stage({ viewer, actions }: { viewer: Viewer; actions: Actions }) {
   const stage = useRef<HTMLDivElement>(null);
@@ -44,6 +57,7 @@ export function Stage({ viewer, actions }: { viewer: Viewer; actions: Actions })
     <div class="stage" ref={stage} tabIndex={0} role="application" aria-label={`${title}. ${help}`} aria-busy={!viewer.pictured.value}>
       <canvas ref={canvas} role="img" aria-label={`Picture of ${title}`} class={viewer.pictured.value ? '' : 'blank'} width={16} height={9} />
       <HudView viewer={viewer} />
+      {viewer.lightMode.value && <LightNote viewer={viewer} />}
     </div>
   );
 }

@@ -1,6 +1,8 @@
 // How the picture is drawn: every picture option that makes sense while looking.
+import { query } from '../api.ts';
 import type { Viewer } from '../scene/viewer.ts';
 import { cullingShown, showHud } from './hud.tsx';
+import { Icon } from './icons.tsx';
 import { Check, Choice, Section } from './ui.tsx';
 
 const asSet = ['', 'as the scene says'] as const;
@@ -61,6 +63,19 @@ export function ViewPanel({ viewer }: { viewer: Viewer }) {
           </span>
         </div>
       </Section>
+      <Section title="Third person">
+        <label class="field">
+          <span>Entity</span>
+          <input type="text" value={of('entity')} placeholder="a scene file, as ship.xml" spellcheck={false}
+            onChange={(event) => viewer.setOption('entity', event.currentTarget.value.trim())} />
+        </label>
+      </Section>
+      {viewer.facts.value?.links.turntable && !viewer.edited.value && (
+        <Section title="Turntable">
+          <a class="button" href={`${viewer.facts.value.links.turntable}?${query({ ...viewer.turntableOptions(), frames: 48, fps: 16, format: 'apng' })}`}
+            download={`${(viewer.id ?? 'scene').replaceAll('/', '-')}-turntable.png`}><Icon name="turntable" />Download as animated PNG</a>
+        </Section>
+      )}
       {counts && (
         <Section title="Scene">
           <dl class="counts">

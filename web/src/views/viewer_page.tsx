@@ -23,6 +23,13 @@ export function openPanel(name: PanelName): void {
   remember('panel', name);
 }
 
+/** A panel that was open is open again, where there is room for it. */
+function firstPanel(id: string | null): PanelName {
+  const kept = recall('panel');
+  const known = tabs.find(([name]) => name === kept)?.[0];
+  return id === null ? 'xml' : known && matchMedia('(min-width: 60rem)').matches ? known : 'none';
+}
+
 function Panel({ viewer }: { viewer: Viewer }) {
   if (panel.value === 'none') return null;
   const keys = (event: KeyboardEvent): void => {
@@ -56,11 +63,11 @@ const Editor = lazyView(() => import('./editor.tsx').then((module) => module.Edi
 
 export function ViewerPage({ id, view }: { id: string | null; view: URLSearchParams }) {
   const own = id === null ? local.peek() : null;
-  const viewer = useMemo(() => new Viewer(id, own?.loose), [id]);
+  const viewer = useMemo(() => {
+    panel.value = firstPanel(id);
+    return new Viewer(id, own?.loose);
+  }, [id]);
   useEffect(() => {
-    const kept = recall('panel') as PanelName | null;
-    const wide = matchMedia('(min-width: 60rem)').matches;
-    panel.value = id === null ? 'xml' : wide && kept ? kept : 'none';
     void viewer.open(parseView(view), own?.text ?? newScene);
     const keep = (): void => viewer.flushDraft();
     addEventListener('pagehide', keep);

@@ -93,8 +93,8 @@ export const scenePath = (id: string): string => `/v1/scenes/${id.split('/').map
 export const query = (options: Options): string =>
   new URLSearchParams(Object.entries(options).map(([key, value]) => [key, String(value)])).toString();
 
-export const listScenes = (page: number): Promise<ScenePage> =>
-  json(`/v1/scenes?${query({ page })}`);
+export const listScenes = (page: number, words: string): Promise<ScenePage> =>
+  json(`/v1/scenes?${query({ page, ...(words ? { q: words } : {}) })}`);
 
 export const getScene = (id: string): Promise<SceneFacts> => json(scenePath(id));
 
@@ -104,7 +104,7 @@ export const getSource = async (id: string): Promise<string> => (await request(`
 
 /** Facts about a document that is sent, and the places of its models. */
 export const validate = (body: RequestInit, base: string | null): Promise<SceneFacts & Partial<ModelPlaces>> =>
-  json(`/v1/validate?${query(base === null ? {} : { base })}`, { method: 'POST', ...body });
+  json(`/v1/validate?${query(base === null ? { models: 1 } : { models: 1, base })}`, { method: 'POST', ...body });
 
 /** A finding as a sentence with its place. */
 export function sentence(finding: Finding): string {

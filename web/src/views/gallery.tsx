@@ -21,20 +21,14 @@ const problem = signal('');
 const loading = signal(false);
 let request = 0;
 
-// A server without the parameter q lists everything: what does not match is left out here.
-function matches(scene: SceneFacts, text: string): boolean {
-  const all = `${scene.id} ${scene.title} ${scene.description}`.toLowerCase();
-  return text.toLowerCase().split(/\s+/).every((word) => all.includes(word));
-}
-
 async function load(page: number): Promise<void> {
   const number = ++request, text = words.value.trim();
   loading.value = true;
   try {
-    const answer = await listScenes(page);
+    const answer = await listScenes(page, text);
     if (number !== request) return;
     const before = page > 1 && listing.value ? listing.value.scenes : [];
-    const scenes = [...before, ...answer.scenes.filter((scene) => matches(scene, text))];
+    const scenes = [...before, ...answer.scenes];
     listing.value = { words: text, scenes, pages: answer.pages, page, total: answer.total };
     problem.value = '';
   } catch (fault) {

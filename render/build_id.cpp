@@ -37,9 +37,12 @@ int appendBuildId(dl_phdr_info* info, std::size_t, void* out) {
 }  // namespace
 
 std::string buildId() {
-    std::string all;
-    dl_iterate_phdr(appendBuildId, &all);
-    return scene::contentDigest(all).substr(0, 16);
+    static const std::string id = [] {
+        std::string all;
+        dl_iterate_phdr(appendBuildId, &all);
+        return scene::contentDigest(all).substr(0, 16);
+    }();
+    return id;
 }
 
 }  // namespace farol::render

@@ -35,6 +35,10 @@ std::int64_t claimedPixels(std::string_view format, std::string_view bytes) {
     return format == "webp" ? webpPixels(bytes) : 0;
 }
 
+bool isAnimatedWebp(std::string_view bytes) {
+    return bytes.size() > 20 && bytes.substr(12, 4) == "VP8X" && (bytes[20] & 2) != 0;
+}
+
 bool isWholePng(std::string_view bytes) {
     constexpr std::size_t kAround = 12;  // length, type and checksum
     for (std::size_t at = 8; at <= bytes.size() && bytes.size() - at >= kAround;) {

@@ -11,8 +11,11 @@ namespace farol::render {
 /// `format` is OpenImageIO's name of it. GIF89a section 18; WebP container, RFC 9649 section 2.
 std::int64_t claimedPixels(std::string_view format, std::string_view bytes);
 
-/// True if every chunk of a PNG lies within the file, up to its end mark. libpng's error for a file
-/// that ends early jumps over the destructors of OpenImageIO's reader, which then loses memory.
+/// True if every chunk of a PNG lies within the file, up to its end mark: known before memory is
+/// taken for the pixels of a file that was cut off.
 bool isWholePng(std::string_view bytes);
+
+/// True for a WebP file of more than one frame (RFC 9649, the animation flag).
+bool isAnimatedWebp(std::string_view bytes);
 
 }  // namespace farol::render

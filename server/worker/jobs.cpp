@@ -5,6 +5,7 @@
 
 #include "generator/io/mesh_file.h"
 #include "generator/registry.h"
+#include "render/encode.h"
 #include "render/image_file.h"
 #include "scene/archive.h"
 #include "server/worker/pictures.h"
@@ -30,7 +31,7 @@ constexpr const char* kLit = R"(<world>
   <group><models>
     <model file="sphere_1_8_8.3d"><color><specular R="255" G="255" B="255"/>
       <shininess value="32"/></color></model>
-    <model file="plane_4_1.3d"><texture file="texel.ppm"/></model>
+    <model file="plane_4_1.3d"><texture file="texel.png"/></model>
   </models></group>
 </world>)";
 
@@ -120,7 +121,7 @@ void warmUp(render::Renderer& renderer) {
     render::Job job;
     job.xml = kLit;
     job.assets = std::make_shared<scene::BundleAssets>(std::map<std::string, std::string>{
-        {"texel.ppm", std::string("P6\n1 1\n255\n") + "\x80\x80\x80"}});
+        {"texel.png", render::encodePng({1, 1, {0x80, 0x80, 0x80, 0xFF}})}});
     renderer.render(job);
 }
 

@@ -22,6 +22,7 @@ struct Ruleset {
 constexpr std::uint64_t kRead = LANDLOCK_ACCESS_FS_READ_FILE | LANDLOCK_ACCESS_FS_READ_DIR;
 constexpr std::uint64_t kWrite = LANDLOCK_ACCESS_FS_WRITE_FILE | LANDLOCK_ACCESS_FS_REMOVE_FILE |
                                  LANDLOCK_ACCESS_FS_MAKE_REG | LANDLOCK_ACCESS_FS_MAKE_DIR;
+constexpr std::uint64_t kFile = LANDLOCK_ACCESS_FS_READ_FILE | LANDLOCK_ACCESS_FS_WRITE_FILE;
 constexpr std::uint64_t kRefer = 1U << 13U;          // since ABI 2
 constexpr std::uint64_t kTruncate = 1U << 14U;       // since ABI 3
 constexpr std::uint64_t kDeviceControl = 1U << 15U;  // since ABI 5
@@ -48,8 +49,11 @@ bool allow(int rules, const std::string& path, std::uint64_t rights) {
     if (path.empty()) return true;
     const Descriptor place(open(path.c_str(), O_PATH | O_CLOEXEC));
     if (place.fd() < 0) return true;  // what is not there needs no permission
+    struct stat facts {};
+    if (fstat(place.fd(), &facts) != 0) return false;
     landlock_path_beneath_attr beneath{};
-    beneath.allowed_access = rights;
+    // Rights of folders are refused for a file.
+    beneath.allowed_access = S_ISDIR(facts.st_mode) ? rights : rights & kFile;
     beneath.parent_fd = place.fd();
     return syscall(SYS_landlock_add_rule, rules, LANDLOCK_RULE_PATH_BENEATH, &beneath, 0) == 0;
 }

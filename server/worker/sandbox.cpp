@@ -9,6 +9,8 @@
 #include <cstring>
 #include <filesystem>
 
+#include "render/decoder.h"
+
 namespace farol::server::worker {
 namespace {
 
@@ -58,7 +60,12 @@ void enterSandbox(const SandboxOptions& options, Layers& layers) {
     layers.emplace_back("noNewPrivileges",
                         prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 ? "on" : missing());
     layers.emplace_back("limits", limitResources(options.memoryBytes));
-    std::vector<std::string> readable = {"/usr", "/lib", "/lib64", "/sys/devices/system/cpu"};
+    std::vector<std::string> readable = {"/usr",
+                                         "/lib",
+                                         "/lib64",
+                                         "/sys/devices/system/cpu",
+                                         "/etc/ld.so.cache",
+                                         render::moduleFile()};
     readable.insert(readable.end(), options.readable.begin(), options.readable.end());
     layers.emplace_back("landlock", restrictFiles(readable, {shaderCache()}));
 }
@@ -66,9 +73,13 @@ void enterSandbox(const SandboxOptions& options, Layers& layers) {
 void closeSandbox(const SandboxOptions& options, Layers& layers) {
     signal(SIGXFSZ, SIG_IGN);
     if (!kSanitized && !limit(RLIMIT_FSIZE, 0)) layers.emplace_back("fileSize", missing());
-    // Of what the first rules left open for the program's start, only Mesa's cache is needed: to
-    // read. One that could write there could leave code for those who come after it.
+    // Of what the first rules left open for the program's start, Mesa's cache is needed, and the
+    // libraries of the module that reads rare picture formats: to read. One that could write to
+    // the cache could leave code for those who come after it.
     std::vector<std::string> readable = options.readable;
+    for (const char* path : {"/usr/lib", "/lib", "/lib64", "/etc/ld.so.cache"})
+        readable.emplace_back(path);
+    readable.emplace_back(render::moduleFile());
     readable.push_back(shaderCache());
     restrictFiles(readable, {});
     layers.emplace_back("seccomp", restrictCalls(kSocket));

@@ -19,6 +19,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "render/image_file.h"
 #include "server/worker/jobs.h"
 #include "server/worker/worker.h"
 
@@ -101,6 +102,12 @@ int runSelfTest(const SandboxOptions& options, const std::string& probe) {
     // What it is for still works: a picture, and the files of the scenes.
     Request canary;
     said["draws"] = work(renderer, canary).outcome == Outcome::done;
+    try {
+        render::decodeImage("P6\n1 1\n255\nabc", "rare.ppm");
+        said["readsRarePictures"] = true;
+    } catch (const Error& error) {
+        said["readsRarePictures"] = error.what();
+    }
     for (const std::string& folder : options.readable) {
         std::error_code failed;
         std::string read = "nothing to read";

@@ -262,6 +262,7 @@ TEST_CASE("a worker can neither reach out nor write nor read what is not a scene
     REQUIRE(said.is_object());
     CHECK(said["before"] == "done");
     CHECK(said["draws"] == true);
+    CHECK(said["readsRarePictures"] == true);
     CHECK(said["reads"][scenes] == "done");
     const auto layers = said["layers"];
     const bool landlock = layers.value("landlock", "missing").rfind("abi", 0) == 0;

@@ -100,7 +100,8 @@ const std::vector<Library> kLibraries{{{"GL/", "EGL/"}, "render/gl/", 0},
                                       {{"seccomp.h"}, "server/worker/", 1},
                                       {{"archive.h", "archive_entry.h"}, "scene/", 1},
                                       {{"libdeflate"}, "render/", 1},
-                                      {{"jpeglib", "webp/", "turbojpeg"}, "render/", 1},
+                                      {{"jpeglib", "webp/", "turbojpeg"}, "render/", 2},
+                                      {{"png.h"}, "render/", 1},
                                       {{"catch2/"}, "tests/", 0}};
 
 bool startsWithAny(const std::string& text, const std::vector<std::string>& beginnings) {

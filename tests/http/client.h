@@ -31,9 +31,9 @@ class RawClient {
 
     bool send(const std::string& bytes);
     void endSending();
-    /// Reads one answer; `withBody` false for HEAD. Status 0 when there is none in ten seconds.
+    /// Reads one answer; `withBody` false for HEAD. Status 0 when there is none in a minute.
     Answer read(bool withBody = true);
-    /// True if the server ended the connection within ten seconds.
+    /// True if the server ended the connection within a minute.
     bool closedByServer();
 
   private:

@@ -21,6 +21,10 @@ class Bytes final : public server::http::Body {
 };
 
 void checkUpload(const server::Upload& upload) {
+    if (!upload.bundle) {  // a worker opens it: fuzz_archive
+        require(!upload.job.archive.empty(), "neither a scene nor an archive");
+        return;
+    }
     require(!upload.job.xml.empty(), "a scene without bytes");
     require(upload.job.assets != nullptr, "an upload without files");
     for (const std::string& path : upload.job.assets->list()) {
@@ -80,7 +84,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     try {
         const server::Upload upload = server::readUpload(request, body, kMaxInput);
         checkUpload(upload);
-        reached("files " + std::to_string(upload.job.assets->list().size()));
+        reached(upload.bundle ? "files " + std::to_string(upload.bundle->files.size()) : "archive");
     } catch (const Error& error) {
         checkError(error);
         reached(error.what());

@@ -60,7 +60,7 @@ TEST_CASE("pictures are decoded as OpenImageIO decodes them") {
 
 TEST_CASE("the pictures of the example scenes are decoded as OpenImageIO decodes them") {
     int pngs = 0, jpegs = 0;
-    for (const char* root : {"/scenes", "/docs", "/tests/golden"})
+    for (const char* root : {"/scenes", "/docs", "/tests/golden", "/tests/fuzz/seeds/image"})
         for (const auto& entry : std::filesystem::recursive_directory_iterator(
                  std::string(FAROL_SOURCE_DIR) + root,
                  std::filesystem::directory_options::skip_permission_denied)) {

@@ -86,6 +86,18 @@ export async function request(url: string, init?: RequestInit): Promise<Response
   return response;
 }
 
+/** Asks a busy server again when it says so, a few times. */
+export async function patient<T>(ask: () => Promise<T>): Promise<T> {
+  for (let attempt = 1; ; ++attempt) {
+    try {
+      return await ask();
+    } catch (fault) {
+      if (!(fault instanceof Problem && fault.busy) || attempt > 4) throw fault;
+      await new Promise((done) => setTimeout(done, (fault.retryAfterS ?? 1) * 1000 * attempt));
+    }
+  }
+}
+
 const json = async <T>(url: string, init?: RequestInit): Promise<T> => (await (await request(url, init)).json()) as T;
 
 export const scenePath = (id: string): string => `/v1/scenes/${id.split('/').map(encodeURIComponent).join('/')}`;
@@ -94,9 +106,9 @@ export const query = (options: Options): string =>
   new URLSearchParams(Object.entries(options).map(([key, value]) => [key, String(value)])).toString();
 
 export const listScenes = (page: number, words: string): Promise<ScenePage> =>
-  json(`/v1/scenes?${query({ page, ...(words ? { q: words } : {}) })}`);
+  patient(() => json(`/v1/scenes?${query({ page, ...(words ? { q: words } : {}) })}`));
 
-export const getScene = (id: string): Promise<SceneFacts> => json(scenePath(id));
+export const getScene = (id: string): Promise<SceneFacts> => patient(() => json(scenePath(id)));
 
 export const getModels = (id: string): Promise<ModelPlaces> => json(`${scenePath(id)}/models`);
 

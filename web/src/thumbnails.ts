@@ -1,5 +1,5 @@
 // Thumbnails a few at a time, so that a full gallery does not fill the server's queue.
-import { Problem, request } from './api.ts';
+import { patient, request } from './api.ts';
 
 const atOnce = 3;
 const waiting: (() => void)[] = [];
@@ -18,20 +18,16 @@ function next(): void {
   start();
 }
 
-/** The picture's address. A busy server is asked again a little later, and not for ever. */
-export async function thumbnail(url: string, signal: AbortSignal): Promise<string> {
-  for (let attempt = 1; ; ++attempt) {
+/** The picture's address, when it is in the browser's cache. */
+export const thumbnail = (url: string, signal: AbortSignal): Promise<string> =>
+  patient(async () => {
     await turn();
     try {
-      if (signal.aborted) throw new DOMException('aborted', 'AbortError');
-      await request(url, { signal }); // into the browser's cache, which the picture is then taken from
+      signal.throwIfAborted();
+      await request(url, { signal });
       return url;
-    } catch (fault) {
-      if (!(fault instanceof Problem && fault.busy) || attempt > 4) throw fault;
-      await new Promise((done) => setTimeout(done, (fault.retryAfterS ?? 1) * 1000 * attempt));
     } finally {
       running -= 1;
       next();
     }
-  }
-}
+  });

@@ -1,6 +1,6 @@
 // Files of one's own: dropped or chosen, stored unlisted on the server, and opened.
 import { signal } from '@preact/signals';
-import { Problem, query, request, type Finding, type SceneFacts } from './api.ts';
+import { patient, Problem, query, request, type Finding, type SceneFacts } from './api.ts';
 import { chooseFiles } from './files.ts';
 import { scenePlace } from './router.ts';
 import { bundleOf, type Loose, type NamedFile } from './scene/bundle.ts';
@@ -23,7 +23,7 @@ export async function openFiles(files: readonly NamedFile[]): Promise<void> {
   uploading.value = bundle.name;
   uploadProblem.value = null;
   try {
-    const response = await request(`/v1/scenes?${query({ public: 0 })}`, { method: 'POST', ...bundle.body() });
+    const response = await patient(() => request(`/v1/scenes?${query({ public: 0 })}`, { method: 'POST', ...bundle.body() }));
     const scene = (await response.json()) as SceneFacts;
     location.hash = scenePlace(scene.id);
   } catch (problem) {

@@ -1,6 +1,6 @@
 // Grades of many submissions against one reference, a few at a time.
 import { signal } from '@preact/signals';
-import { findingsOf, request, sentence, type Finding } from '../api.ts';
+import { findingsOf, patient, request, sentence, type Finding } from '../api.ts';
 import type { Subject } from './submissions.ts';
 
 export interface Grade {
@@ -65,7 +65,7 @@ export class Grading {
     form.append('reference', reference.file, reference.fileName);
     if (this.rubric.value) form.append('rubric', this.rubric.value.file, this.rubric.value.name);
     try {
-      const response = await request('/v1/grade', { method: 'POST', body: form });
+      const response = await patient(() => request('/v1/grade', { method: 'POST', body: form }));
       this.set(subject, { state: 'done', grade: (await response.json()) as Grade });
     } catch (fault) {
       this.set(subject, { state: 'failed', problem: findingsOf(fault).map(sentence).join(' ') });

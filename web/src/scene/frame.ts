@@ -44,10 +44,8 @@ export interface Origin {
 export const bodyOf = ({ text, loose }: Origin): RequestInit =>
   loose ? { body: formOf(loose, text ?? '') } : { body: text ?? '', headers: { 'Content-Type': 'application/xml' } };
 
-const session = `p${crypto.getRandomValues(new Uint32Array(2)).join('-')}`;
-
-/** One page, one session: its newer frames drop its older ones that still wait. */
-export const turnOf = (seq: number): Options => ({ session, seq });
+/** The frames of one viewer are a session, numbered from 1: newer ones drop older ones that still wait. */
+export const newSession = (): string => crypto.getRandomValues(new Uint32Array(2)).join('-');
 
 export function pictureUrl(origin: Origin, options: Options): string {
   if (origin.text === null && origin.id !== null)

@@ -13,7 +13,7 @@ import { formatView, replaceAddress, scenePlace, type ViewLink } from '../router
 import type { Loose } from './bundle.ts';
 import { SceneClock } from './clock.ts';
 import { hashText, loadDraft, saveDraft } from './drafts.ts';
-import { bodyOf, decodeFrame, fetchPicture, turnOf, type Frame, type Origin } from './frame.ts';
+import { bodyOf, decodeFrame, fetchPicture, newSession, type Frame, type Origin } from './frame.ts';
 
 export type Quality = 'fast' | 'standard' | 'reference';
 
@@ -58,6 +58,7 @@ export class Viewer {
   home: LookAt | null = null;
   canvas: Canvas | null = null;
 
+  private readonly session = newSession();
   private readonly rate = new FrameRate();
   private readonly loop: FrameLoop<Frame>;
   private linkTimer: ReturnType<typeof setTimeout> | undefined;
@@ -79,7 +80,7 @@ export class Viewer {
         const options = this.pictureOptions();
         if (pace) Object.assign(options, { scale: pace.scale, aa: 1, error: 1, format: pace.format, quality: pace.quality });
         else options['format'] = 'png';
-        const response = await fetchPicture(this.origin(), { ...options, ...turnOf(seq) }, signal);
+        const response = await fetchPicture(this.origin(), { ...options, session: this.session, seq }, signal);
         if (!response) return undefined;
         return { picture: await decodeFrame(response, options), serverTiming: response.headers.get('Server-Timing') };
       },

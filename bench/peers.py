@@ -72,7 +72,7 @@ def as_obj():
     return "\n".join(lines + faces) + "\n"
 
 
-PAGE = """<!doctype html><script src="three.min.js"></script><script>
+PAGE = """<!doctype html><body><script src="three.min.js"></script><script>
 const [W, H, RUNS] = location.search.slice(1).split(',').map(Number);
 const scene = new THREE.Scene();
 for (const [x, y, z, r, c] of BALLS) {
@@ -150,9 +150,9 @@ class Browser:
         with tempfile.TemporaryDirectory() as profile:
             page = (f"http://127.0.0.1:{self.server.server_port}/page.html?{width},{height},{runs}")
             process = subprocess.Popen(
-                [self.chromium, "--headless=new", "--no-sandbox", "--disable-dev-shm-usage",
-                 "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
-                 "--ignore-gpu-blocklist", f"--user-data-dir={profile}/p", page],
+                [self.chromium, "--headless", "--no-sandbox", "--disable-dev-shm-usage",
+                 "--disable-gpu", "--enable-unsafe-swiftshader", "--no-first-run",
+                 f"--user-data-dir={profile}/p", "--remote-debugging-port=0", page],
                 stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
             found = self.ready.wait(90)
             process.terminate()

@@ -83,12 +83,11 @@ def quality(bench, progress):
     """Time against error of the example scenes, ours against fixed divisions."""
     rows = []
     names = ["teapots", "primitives", "police-box"] if bench.quick else QUALITY_SCENES
-    size = (160, 120) if bench.quick else (320, 240)
+    size = (160, 120) if bench.quick else (240, 180)
     for i, name in enumerate(names):
         progress.step("quality", i / len(names), name)
         scene = name if name == "mixed" else f"scenes/{name}/scene.xml"
-        arguments = [scene, "--runs", 3 if bench.quick else 5, "--cap",
-                     8 if bench.quick or name == "mixed" else 16,
+        arguments = [scene, "--runs", 3 if bench.quick else 5, "--cap", 8,
                      f"width={size[0]}", f"height={size[1]}"]
         found = bench.lines("bench_quality", *arguments, *(["--quick"] if bench.quick else []))
         if not found:

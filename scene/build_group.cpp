@@ -57,7 +57,9 @@ void SceneBuilder::transform(std::string_view canonical, pugi::xml_node element,
     const std::optional<Transform> made = canonical == "translate" ? translate(element)
                                           : canonical == "rotate"  ? rotate(element)
                                                                    : scaling(element);
-    if (made) group.transforms.push_back(*made);
+    if (!made) return;
+    group.transforms.push_back(*made);
+    group.transformsAt.push_back(at(element));
 }
 
 bool SceneBuilder::transformAllowed(std::string_view canonical, pugi::xml_node element,

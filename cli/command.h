@@ -37,6 +37,7 @@ void addRender(CLI::App& root, Action& action);
 void addGenerate(CLI::App& root, Action& action);
 void addValidate(CLI::App& root, Action& action);
 void addCompare(CLI::App& root, Action& action);
+void addGrade(CLI::App& root, Action& action);
 void addHealth(CLI::App& root, Action& action);
 void addVersion(CLI::App& root, Action& action);
 /// What `serve` starts; not in the help.

@@ -45,6 +45,7 @@ int main(int argc, char** argv) {
     addGenerate(app, action);
     addValidate(app, action);
     addCompare(app, action);
+    addGrade(app, action);
     addHealth(app, action);
     addVersion(app, action);
     addWorker(app, action);

@@ -1,8 +1,8 @@
 #include "grade/grader.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
-#include <set>
 
 #include "grade/client_area.h"
 #include "grade/compare.h"
@@ -24,6 +24,20 @@ constexpr std::size_t kMeshBytes = std::size_t{128} << 20U;
 constexpr std::size_t kReferences = 8;  // tasks of one class
 constexpr int kJpegQuality = 82;
 constexpr int kNearlyPx = 8;  // a picture of about the window's size was cut by hand
+
+/// Milliseconds since the last call.
+class Stopwatch {
+  public:
+    double lap() {
+        const auto now = std::chrono::steady_clock::now();
+        const double ms = std::chrono::duration<double, std::milli>(now - last_).count();
+        last_ = now;
+        return ms;
+    }
+
+  private:
+    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
 
 /// Names a scene and all its files.
 std::string identityOf(const render::Job& job) {
@@ -92,8 +106,11 @@ struct Grader::State {
             made->timesS = chooseTimes(rubric, prepared->scene);
             made->tree = growTree(prepared, made->timesS.front(), meshes);
             made->shots = planShots(rubric, made->tree, made->timesS);
-            for (const Shot& shot : made->shots)
-                made->frames.push_back(drawFrame(renderer, made->job, shot, partsFor(rubric)));
+            for (const Shot& shot : made->shots) {
+                Frame frame = drawFrame(renderer, made->job, shot, partsFor(rubric));
+                if (partsFor(rubric).flip) frame.flip.emplace(FloatImage(frame.color));
+                made->frames.push_back(std::move(frame));
+            }
         } else {
             made->screen =
                 render::decodeImage(subject.picture, subject.job.name, {subject.job.name, 0, 0});
@@ -106,22 +123,27 @@ struct Grader::State {
                  Grade& grade, Findings& findings) {
         render::Job job = submission.job;
         job.identity = identityOf(job);
+        Stopwatch watch;
         auto prepared = std::make_shared<const render::Prepared>(render::prepare(job));
         grade.diagnostics = prepared->diagnostics;
         const Tree tree = growTree(prepared, reference.timesS.front(), meshes);
+        grade.times.readMs += watch.lap();
         const SceneComparison found = compareScenes(
             reference.tree, tree, {reference.timesS.front(), reference.timesS.back()});
         findings = found.findings;
+        grade.times.compareMs += watch.lap();
         for (std::size_t i = 0; i < reference.shots.size(); ++i) {
             const Shot& shot = reference.shots[i];
             Frame frame = drawFrame(renderer, job, shot, partsFor(rubric));
+            grade.times.drawMs += watch.lap();
             translate(frame.ids, found);
             ViewGrade view = measure(shot.name, shot.options.timeS, reference.frames[i].color,
                                      frame.color, rubric, false, grade);
             const Frame& theirs = reference.frames[i];
-            if (theirs.flip && frame.flip && frame.color != theirs.color) {
-                const Summary summary = summarize(flip(*theirs.flip, *frame.flip),
-                                                  contentOf(theirs.color, frame.color));
+            if (theirs.flip && frame.color != theirs.color) {
+                const FlipPicture mine{FloatImage(frame.color)};
+                const Summary summary =
+                    summarize(flip(*theirs.flip, mine), contentOf(theirs.color, frame.color));
                 view.flipMean = summary.mean;
                 view.flipP95 = summary.p95;
             }
@@ -136,6 +158,7 @@ struct Grader::State {
             grade.visible = grade.visible || view.coverage > kSomePixels ||
                             view.normals > kSomePixels || view.depth > kSomePixels;
             grade.views.push_back(std::move(view));
+            grade.times.compareMs += watch.lap();
         }
     }
 
@@ -241,6 +264,20 @@ struct Grader::State {
 
 Grader::Grader(render::Renderer& renderer) : state_(std::make_unique<State>(renderer)) {}
 Grader::~Grader() = default;
+
+std::vector<std::string> Grader::picturesOf(const Subject& reference, const Rubric& rubric) {
+    const auto shown = state_->reference(reference, rubric, writeRubric(rubric));
+    if (!shown->picture.empty()) {
+        const Rectangle area = rubric.cropAuto
+                                   ? clientArea(shown->screen)
+                                   : Rectangle{0, 0, shown->screen.width, shown->screen.height};
+        return {render::encodeJpeg(crop(shown->screen, area), kJpegQuality)};
+    }
+    std::vector<std::string> out;
+    for (const Frame& frame : shown->frames)
+        out.push_back(render::encodeJpeg(frame.color, kJpegQuality));
+    return out;
+}
 
 Grade Grader::grade(const Subject& reference, const Subject& submission, const Rubric& rubric) {
     const auto against = state_->reference(reference, rubric, writeRubric(rubric));

@@ -42,6 +42,11 @@ struct ViewGrade {
     std::string heat;     ///< JPEG of the difference; empty where there is none
 };
 
+/// Wall time of the stages, ms: reports leave it out, so that they stay the same.
+struct GradeTimes {
+    double readMs = 0, drawMs = 0, compareMs = 0;
+};
+
 struct Grade {
     double points = 0, most = 0;
     bool passed = false, refused = false;  ///< refused: it could not be read
@@ -51,6 +56,7 @@ struct Grade {
     std::vector<CostedFinding> findings;
     Diagnostics diagnostics;
     std::vector<ViewGrade> views;
+    GradeTimes times;
 };
 
 /// Grades submissions with one renderer. References are kept: the same one costs once.
@@ -63,6 +69,9 @@ class Grader {
     /// Throws Error when the reference is at fault; a submission that is at fault is refused.
     /// The same arguments give the same grade, whatever was graded before.
     Grade grade(const Subject& reference, const Subject& submission, const Rubric& rubric);
+
+    /// What each view shows of the reference, JPEG, in the order of Grade::views. Throws Error.
+    std::vector<std::string> picturesOf(const Subject& reference, const Rubric& rubric);
 
   private:
     struct State;

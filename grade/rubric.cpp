@@ -190,7 +190,7 @@ Rubric defaultRubric() {
                     {"from above", View::Kind::orbit, -30, 30, 1}};
     // The tolerances are what rounding, another tessellation order and a pixel's shift make in
     // docs/grading.md's table, and some more.
-    rubric.criteria = {{Measure::difference, 40, 0.002, 0.25, 0},
+    rubric.criteria = {{Measure::difference, 35, 0.002, 0.25, 0},
                        {Measure::flip, 5, 0.05, 0.5, 0},
                        {Measure::coverage, 10, 0.02, 0.6, 0},
                        {Measure::depth, 5, 0.01, 0.5, 0},

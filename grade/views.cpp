@@ -122,7 +122,6 @@ Frame drawFrame(render::Renderer& renderer, const render::Job& job, const Shot& 
     render::Job one = job;
     one.options = shot.options;
     renderer.draw(one, frame.color);
-    if (parts.flip) frame.flip.emplace(FloatImage(frame.color));
     const auto layer = [&](render::Layer which) {
         one.options.layer = which;
         render::Image image;

@@ -32,7 +32,7 @@ std::vector<double> chooseTimes(const Rubric& rubric, const scene::Scene& refere
 struct Frame {
     render::Image color, depth, normal;
     std::vector<std::uint32_t> ids;
-    std::optional<FlipPicture> flip;
+    std::optional<FlipPicture> flip;  ///< of references: it serves all comparisons
 };
 
 /// What of a frame a rubric's measures need.

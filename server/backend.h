@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "grade/grader.h"
 #include "render/renderer.h"
 #include "scene/bundle.h"
 
@@ -45,6 +46,23 @@ struct Turntable {
     bool apng = false;  ///< one animated PNG, else multipart/x-mixed-replace
 };
 inline constexpr const char* kFrameBoundary = "farol-frame";
+
+/// A submission to grade. Where it holds neither a scene nor a picture, the reference's own
+/// pictures are asked for.
+struct GradeJob {
+    grade::Subject reference, submission;
+    std::string rubric;  ///< JSON; empty: the default
+};
+
+struct GradeReply {
+    std::string json;  ///< grade::toJson
+    double points = 0, most = 0;
+    bool passed = false, refused = false;
+    /// JPEG, two a view: the submission's picture and the difference; empty as in ViewGrade. Of a
+    /// reference: one a view.
+    std::vector<std::string> pictures;
+    double readMs = 0, drawMs = 0, compareMs = 0;  ///< stages
+};
 
 template <typename Result>
 struct Done {
@@ -89,6 +107,7 @@ class Backend {
                                          const render::PictureOptions& options) = 0;
     /// The files of an archive (scene/archive.h).
     virtual Done<scene::Bundle> unpack(const std::string& archive) = 0;
+    virtual Done<GradeReply> grade(const GradeJob& job) = 0;
     /// Draws a tiny known scene and checks its pixels. Throws std::runtime_error with the reason
     /// when they are wrong.
     virtual void check() = 0;

@@ -75,9 +75,33 @@ std::string makeMesh(const MeshJob& job) {
     return generator::io::encodeMesh(generator::generate(job.words, noFiles), *format);
 }
 
+GradeReply makeGrade(grade::Grader& grader, const GradeJob& job) {
+    const grade::Rubric rubric =
+        job.rubric.empty() ? grade::defaultRubric() : grade::readRubric(job.rubric, "rubric.json");
+    GradeReply reply;
+    if (job.submission.job.xml.empty() && job.submission.picture.empty()) {
+        reply.pictures = grader.picturesOf(job.reference, rubric);
+        return reply;
+    }
+    grade::Grade made = grader.grade(job.reference, job.submission, rubric);
+    reply.json = grade::toJson(made);
+    reply.points = made.points;
+    reply.most = made.most;
+    reply.passed = made.passed;
+    reply.refused = made.refused;
+    reply.readMs = made.times.readMs;
+    reply.drawMs = made.times.drawMs;
+    reply.compareMs = made.times.compareMs;
+    for (grade::ViewGrade& view : made.views) {
+        reply.pictures.push_back(std::move(view.picture));
+        reply.pictures.push_back(std::move(view.heat));
+    }
+    return reply;
+}
+
 }  // namespace
 
-Reply work(render::Renderer& renderer, const Request& request) {
+Reply work(render::Renderer& renderer, grade::Grader& grader, const Request& request) {
     Reply reply;
     try {
         switch (request.task) {
@@ -98,6 +122,9 @@ Reply work(render::Renderer& renderer, const Request& request) {
                 break;
             case Task::notice:
                 reply.picture = drawNotice(request.notice, request.job.options);
+                break;
+            case Task::grade:
+                reply.grade = makeGrade(grader, request.grade);
                 break;
             case Task::check:
                 check(renderer);

@@ -10,7 +10,7 @@ namespace farol::server::worker {
 inline constexpr std::size_t kMaxMeshTriangles = 250'000;
 
 /// Does what is asked. Never throws: what goes wrong is in the reply.
-Reply work(render::Renderer& renderer, const Request& request);
+Reply work(render::Renderer& renderer, grade::Grader& grader, const Request& request);
 
 /// Draws small scenes that need the commonest shaders, so that they are compiled.
 /// Throws what Renderer::render throws.

@@ -107,6 +107,12 @@ void visit(Archive& archive, T& value) {
     archive(words, format);
 }
 
+template <typename Archive, Is<GradeReply> T>
+void visit(Archive& archive, T& value) {
+    auto& [json, points, most, passed, refused, pictures, readMs, drawMs, compareMs] = value;
+    archive(json, points, most, passed, refused, pictures, readMs, drawMs, compareMs);
+}
+
 namespace worker {
 constexpr Task lastOf(Task) { return Task::check; }
 constexpr Outcome lastOf(Outcome) { return Outcome::memory; }
@@ -119,8 +125,8 @@ void visit(Archive& archive, T& value) {
 
 template <typename Archive, Is<Reply> T>
 void visit(Archive& archive, T& value) {
-    auto& [outcome, diagnostics, message, picture, report, mesh, bundle] = value;
-    archive(outcome, diagnostics, message, picture, report, mesh, bundle);
+    auto& [outcome, diagnostics, message, picture, report, mesh, bundle, grade] = value;
+    archive(outcome, diagnostics, message, picture, report, mesh, bundle, grade);
 }
 
 namespace {
@@ -144,8 +150,8 @@ std::string packed(const T& value) {
 }
 }  // namespace
 
-std::string pack(const Request& request) {
-    const auto& [task, job, mesh, turntable, notice] = request;
+/// A job: a served folder by its path, a bundle by its files.
+void packJob(Packer& packer, const render::Job& job) {
     const auto& [name, xml, assets, options, strict, identity, archive, drawUnseen] = job;
     std::string folder;
     Files files;
@@ -155,26 +161,41 @@ std::string pack(const Request& request) {
         for (const std::string& path : assets->list())
             if (auto bytes = assets->read(path)) files.emplace_back(path, std::move(*bytes));
     }
-    Packer packer;
-    packer(task, name, xml, folder, files, options, strict, identity, archive, drawUnseen, mesh,
-           turntable, notice);
-    return packer.take();
+    packer(name, xml, folder, files, options, strict, identity, archive, drawUnseen);
 }
 
-Request unpackRequest(std::string_view bytes) {
-    Request request;
+void unpackJob(Unpacker& unpacker, render::Job& job) {
     std::string folder;
     Files files;
-    Unpacker unpacker(bytes);
-    render::Job& job = request.job;
-    unpacker(request.task, job.name, job.xml, folder, files, job.options, job.strict, job.identity,
-             job.archive, job.drawUnseen, request.mesh, request.turntable, request.notice);
-    unpacker.end();
+    unpacker(job.name, job.xml, folder, files, job.options, job.strict, job.identity, job.archive,
+             job.drawUnseen);
     if (!folder.empty())
         job.assets = std::make_shared<scene::FolderAssets>(folder);
     else
         job.assets = std::make_shared<scene::BundleAssets>(std::map<std::string, std::string>(
             std::make_move_iterator(files.begin()), std::make_move_iterator(files.end())));
+}
+
+std::string pack(const Request& request) {
+    const auto& [task, job, mesh, turntable, notice, grade] = request;
+    Packer packer;
+    packer(task, mesh, turntable, notice, grade.rubric, grade.reference.picture,
+           grade.submission.picture);
+    packJob(packer, job);
+    packJob(packer, grade.reference.job);
+    return packer.take();
+}
+
+Request unpackRequest(std::string_view bytes) {
+    Request request;
+    Unpacker unpacker(bytes);
+    GradeJob& grade = request.grade;
+    unpacker(request.task, request.mesh, request.turntable, request.notice, grade.rubric,
+             grade.reference.picture, grade.submission.picture);
+    unpackJob(unpacker, request.job);
+    unpackJob(unpacker, grade.reference.job);
+    unpacker.end();
+    grade.submission.job = request.job;
     return request;
 }
 

@@ -9,14 +9,15 @@
 /// What the service and its workers say to each other.
 namespace farol::server::worker {
 
-enum class Task { render, inspect, mesh, unpack, turntable, notice, check };
+enum class Task { render, inspect, mesh, unpack, turntable, notice, grade, check };
 
 struct Request {
     Task task = Task::check;
-    render::Job job;  ///< of render and inspect; of unpack, its archive
+    render::Job job;  ///< of render and inspect; of unpack, its archive; of grade: the submission
     MeshJob mesh;
     Turntable turntable;
     std::string notice;  ///< the text; its picture is by the job's options
+    GradeJob grade;  ///< but for the submission's job
 };
 
 /// A served folder travels by its path, which the worker may read; a bundle by its files.
@@ -40,6 +41,7 @@ struct Reply {
     render::SceneReport report;
     std::string mesh;
     scene::Bundle bundle;  ///< of unpack
+    GradeReply grade;
 };
 
 std::string pack(const Reply& reply);

@@ -290,6 +290,16 @@ Done<scene::Bundle> WorkerPool::unpack(const std::string& archive) {
     return {std::move(done.result.bundle), done.queueMs};
 }
 
+Done<GradeReply> WorkerPool::grade(const GradeJob& job) {
+    Request request;
+    request.task = Task::grade;
+    request.job = job.submission.job;
+    request.grade = job;
+    // Any worker may take it: all have the reference warm after their first.
+    Done<Reply> done = ask(pack(request), "");
+    return {std::move(done.result.grade), done.queueMs};
+}
+
 void WorkerPool::check() { ask(pack(Request{}), ""); }
 
 BackendState WorkerPool::state() const {

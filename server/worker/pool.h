@@ -45,6 +45,7 @@ class WorkerPool final : public Backend {
     Done<render::Picture> notice(const std::string& text,
                                  const render::PictureOptions& options) override;
     Done<scene::Bundle> unpack(const std::string& archive) override;
+    Done<GradeReply> grade(const GradeJob& job) override;
     void check() override;
     BackendState state() const override;
     BackendFacts facts() const override;

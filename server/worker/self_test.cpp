@@ -101,7 +101,8 @@ int runSelfTest(const SandboxOptions& options, const std::string& probe) {
 
     // What it is for still works: a picture, and the files of the scenes.
     Request canary;
-    said["draws"] = work(renderer, canary).outcome == Outcome::done;
+    grade::Grader grader(renderer);
+    said["draws"] = work(renderer, grader, canary).outcome == Outcome::done;
     try {
         render::decodeImage("P6\n1 1\n255\nabc", "rare.ppm");
         said["readsRarePictures"] = true;

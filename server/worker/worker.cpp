@@ -17,9 +17,11 @@ int runWorker(const SandboxOptions& options) {
     Hello hello;
     enterSandbox(options, hello.sandbox);
     std::unique_ptr<render::Renderer> renderer;
+    std::unique_ptr<grade::Grader> grader;
     try {
         renderer = std::make_unique<render::Renderer>();
         warmUp(*renderer);
+        grader = std::make_unique<grade::Grader>(*renderer);
         hello.gl = renderer->gl();
     } catch (const std::exception& fault) {
         hello.fault = fault.what();
@@ -31,7 +33,7 @@ int runWorker(const SandboxOptions& options) {
     while (open && channel.receive(message, kNever) == Channel::Result::done) {
         Reply reply;
         try {
-            reply = work(*renderer, unpackRequest(message));
+            reply = work(*renderer, *grader, unpackRequest(message));
         } catch (const std::bad_alloc&) {
             reply.outcome = Outcome::memory;
         } catch (const std::exception& fault) {

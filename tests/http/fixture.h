@@ -31,6 +31,7 @@ class FakeBackend final : public server::Backend {
     server::Done<render::Picture> notice(const std::string& text,
                                          const render::PictureOptions& options) override;
     server::Done<scene::Bundle> unpack(const std::string& archive) override;
+    server::Done<server::GradeReply> grade(const server::GradeJob& job) override;
     void check() override;
     server::BackendState state() const override { return {1, 0, 0, {}, 0, 0}; }
     std::string version() const override { return name; }

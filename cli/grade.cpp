@@ -1,0 +1,191 @@
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <memory>
+#include <mutex>
+#include <thread>
+
+#include "cli/command.h"
+#include "cli/files.h"
+#include "cli/grade_batch.h"
+#include "grade/rubric.h"
+#include "server/worker/pool.h"
+
+namespace farol::cli {
+namespace {
+
+struct Flags {
+    std::string reference, submissions, output, rubric;
+    int jobs = 0;
+    double deadlineS = 30.0;
+    std::size_t memoryMiB = 1024;
+    bool printRubric = false;
+};
+
+/// Says on stderr how far the run is: a bar on a terminal, else a line every tenth of the way.
+class Progress {
+  public:
+    void operator()(std::size_t done, std::size_t all) {
+        const std::lock_guard lock(mutex_);
+        const std::size_t percent = 100 * done / all;
+        const double secondsGone =
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+        const auto left = static_cast<long>(
+            secondsGone / static_cast<double>(done) * static_cast<double>(all - done) + 0.5);
+        char time[32];
+        std::snprintf(time, sizeof time, "%ld:%02ld left", left / 60, left % 60);
+        if (terminal_) {
+            std::string bar(percent / 4, '=');
+            bar.resize(25, ' ');
+            std::fprintf(stderr, "\r\033[Kgrading [%s] %zu/%zu  %s%s", bar.c_str(), done, all, time,
+                         done == all ? "\n" : "");
+        } else if (percent / 10 != tenth_) {
+            tenth_ = percent / 10;
+            std::fprintf(stderr, "grading %zu/%zu  %zu %%  %s\n", done, all, percent, time);
+        }
+        std::fflush(stderr);
+    }
+
+  private:
+    const bool terminal_ = ::isatty(STDERR_FILENO) != 0;
+    const std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+    std::size_t tenth_ = 0;
+    std::mutex mutex_;
+};
+
+/// Writes a file through a stream, all or nothing.
+void writeReport(const std::string& path, const grade::ClassResult& all,
+                 void (*write)(std::ostream&, const grade::ClassResult&)) {
+    const std::string draft = path + ".part";
+    std::ofstream out(draft, std::ios::binary);
+    write(out, all);
+    out.close();
+    std::error_code failed;
+    if (out) std::filesystem::rename(draft, path, failed);
+    if (!out || failed) throw OutputError("cannot write " + path);
+}
+
+server::worker::PoolOptions poolOptions(const Flags& flags) {
+    server::worker::PoolOptions pool;
+    pool.workers = flags.jobs > 0
+                       ? flags.jobs
+                       : std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, 64);
+    pool.worker.memoryBytes = flags.memoryMiB << 20U;
+    pool.queue.waiting = pool.workers + 8;
+    pool.queue.wait = std::chrono::hours(24);
+    pool.queue.deadline =
+        std::chrono::milliseconds(static_cast<std::int64_t>(flags.deadlineS * 1000.0));
+    return pool;
+}
+
+void printTable(const grade::ClassResult& all, const BatchTimes& times, int jobs) {
+    std::size_t passed = 0;
+    for (std::size_t i = 0; i < all.count; ++i) {
+        const grade::SubmissionResult one = all.at(i);
+        passed += one.passed ? 1 : 0;
+        std::printf("%8.2f / %.0f  %s  %s\n", one.points, one.most, one.passed ? "pass" : "FAIL",
+                    one.id.c_str());
+    }
+    std::printf("%zu of %zu passed\n", passed, all.count);
+    const double each = static_cast<double>(std::max<std::size_t>(1, times.graded));
+    std::fprintf(
+        stderr,
+        "graded %zu (%zu kept from before) in %.1f s with %d workers: %.1f a second; "
+        "each read %.1f ms, drawn %.1f ms, compared %.1f ms\n",
+        times.graded, times.kept, times.wallMs / 1000.0, jobs,
+        static_cast<double>(times.graded + times.kept) * 1000.0 / std::max(1.0, times.wallMs),
+        times.readMs / each, times.drawMs / each, times.compareMs / each);
+}
+
+int run(const Flags& flags, Report& report) {
+    if (flags.printRubric) {
+        std::cout << grade::writeRubric(grade::defaultRubric()) << std::flush;
+        return kDone;
+    }
+    if (flags.reference.empty() || flags.submissions.empty() || flags.output.empty())
+        throw UsageError("grade takes --reference REF SUBMISSIONS_DIR -o REPORT_DIR");
+    const grade::Rubric rubric = flags.rubric.empty()
+                                     ? grade::defaultRubric()
+                                     : grade::readRubric(readInput(flags.rubric), flags.rubric);
+    std::vector<GradeTask> tasks = findTasks(flags.reference);
+    std::vector<Submission> submissions = findSubmissions(flags.submissions);
+    BatchOptions options;
+    options.rubric = grade::writeRubric(rubric);
+    options.resultsDir = flags.output + "/results";
+    std::error_code failed;
+    std::filesystem::create_directories(options.resultsDir, failed);
+    if (failed) throw OutputError("cannot make " + options.resultsDir + ": " + failed.message());
+    Progress progress;
+    options.progress = [&](std::size_t done, std::size_t all) { progress(done, all); };
+
+    std::signal(SIGPIPE, SIG_IGN);  // a worker that dies while it is spoken to
+    const server::worker::PoolOptions poolSettings = poolOptions(flags);
+    options.jobs = poolSettings.workers;
+    server::Logger quiet([](const std::string&) {});
+    server::worker::WorkerPool pool(poolSettings, quiet);
+    Batch batch(pool, std::move(submissions), std::move(tasks), options);
+    const BatchTimes times = batch.run();
+    const grade::ClassResult all = batch.result(rubric.title);
+    writeReport(flags.output + "/report.html", all, grade::writeHtml);
+    writeReport(flags.output + "/grades.csv", all, grade::writeCsv);
+    writeReport(flags.output + "/junit.xml", all, grade::writeJunit);
+    writeReport(flags.output + "/report.json", all, grade::writeJson);
+    if (!report.json()) {
+        printTable(all, times, poolSettings.workers);
+        return kDone;
+    }
+    nlohmann::json list = nlohmann::json::array();
+    for (std::size_t i = 0; i < all.count; ++i) {
+        const grade::SubmissionResult one = all.at(i);
+        list.push_back({{"id", one.id},
+                        {"name", one.name},
+                        {"points", one.points},
+                        {"most", one.most},
+                        {"passed", one.passed}});
+    }
+    report.set("submissions", std::move(list));
+    report.set("timesMs", {{"read", times.readMs},
+                           {"draw", times.drawMs},
+                           {"compare", times.compareMs},
+                           {"wall", times.wallMs}});
+    report.set("graded", times.graded);
+    report.set("kept", times.kept);
+    return kDone;
+}
+
+}  // namespace
+
+void addGrade(CLI::App& root, Action& action) {
+    CLI::App* command = root.add_subcommand("grade", "Grades a class's scenes against a reference");
+    const auto flags = std::make_shared<Flags>();
+    command
+        ->add_option("SUBMISSIONS", flags->submissions,
+                     "folder with a folder, .xml, .zip or .tar for each student")
+        ->type_name("");
+    command
+        ->add_option("--reference", flags->reference,
+                     "a scene, a picture, or a folder of them: a task each, found by its name")
+        ->type_name("REF");
+    command->add_option("-o,--output", flags->output, "folder for the reports; a run goes on in it")
+        ->type_name("DIR");
+    command->add_option("--rubric", flags->rubric, "a .json file; default: --print-rubric")
+        ->type_name("FILE");
+    takesNumber(command->add_option("--jobs", flags->jobs, "processes; 0: one a core"), 0, 64);
+    takesNumber(
+        command->add_option("--deadline", flags->deadlineS, "longest time for one submission, s"),
+        0.1, 3600);
+    takesNumber(command->add_option("--worker-memory", flags->memoryMiB,
+                                    "memory of a process, MiB; 0: no cap"),
+                0, 1 << 20);
+    command->add_flag("--print-rubric", flags->printRubric, "writes the default rubric and ends");
+    command->callback(
+        [&action, flags] { action = [flags](Report& report) { return run(*flags, report); }; });
+}
+
+}  // namespace farol::cli

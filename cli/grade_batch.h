@@ -1,0 +1,59 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "cli/submissions.h"
+#include "grade/report.h"
+#include "server/backend.h"
+
+namespace farol::cli {
+
+/// Stages of a run, summed over its workers, ms.
+struct BatchTimes {
+    double readMs = 0, drawMs = 0, compareMs = 0, wallMs = 0;
+    std::size_t graded = 0, kept = 0;  ///< kept: taken from an earlier run
+};
+
+struct BatchOptions {
+    std::string rubric;      ///< JSON
+    std::string resultsDir;  ///< where each result is kept, so that a run can go on
+    int jobs = 1;
+    std::function<void(std::size_t done, std::size_t all)> progress;
+};
+
+/// Grades every submission in every task over the backend. A submission that cannot be read, ends
+/// its worker or is late has that for a result; only a fault of the reference is thrown.
+class Batch {
+  public:
+    Batch(server::Backend& backend, std::vector<Submission> submissions,
+          std::vector<GradeTask> tasks, BatchOptions options);
+
+    BatchTimes run();
+    grade::ClassResult result(const std::string& title) const;
+
+  private:
+    struct Task;
+    std::string keyOf(const grade::Subject& subject, const Task& task) const;
+    void gradeOne(std::size_t submission, std::size_t task);
+    grade::SubmissionResult load(std::size_t submission) const;
+
+    server::Backend& backend_;
+    std::vector<Submission> submissions_;
+    std::vector<GradeTask> names_;
+    BatchOptions options_;
+    std::vector<std::shared_ptr<Task>> tasks_;
+    struct Entry {
+        std::string file;  ///< of the result; empty: failed
+        std::string code, failure;
+    };
+    std::vector<Entry> entries_;  ///< by submission, then task
+    BatchTimes times_;
+    double most_ = 0, passMark_ = 0;
+    std::mutex mutex_;
+};
+
+}  // namespace farol::cli

@@ -1,0 +1,241 @@
+#include "grade/report.h"
+
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <span>
+
+#include "scene/embedded.h"
+
+namespace farol {
+std::span<const EmbeddedFile> reportFiles();  ///< page.html, page.css, page.js
+}
+
+namespace farol::grade {
+namespace {
+
+using nlohmann::ordered_json;
+
+std::string number(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.2f", value);
+    return text;
+}
+
+ordered_json gradeOf(const TaskResult& task) {
+    return task.json.empty() ? ordered_json() : ordered_json::parse(task.json, nullptr, false);
+}
+
+std::string dump(const ordered_json& value) {
+    return value.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+}
+
+ordered_json toJson(const SubmissionResult& one) {
+    ordered_json out{{"id", one.id}, {"name", one.name}};
+    if (!one.number.empty()) out["identifier"] = "Participant " + one.number;
+    out["points"] = one.points;
+    out["most"] = one.most;
+    out["passed"] = one.passed;
+    out["tasks"] = ordered_json::array();
+    for (const TaskResult& task : one.tasks) {
+        ordered_json entry;
+        if (!task.task.empty()) entry["task"] = task.task;
+        if (task.json.empty())
+            entry["failure"] = {{"code", task.code}, {"message", task.failure}};
+        else
+            entry["grade"] = gradeOf(task);
+        out["tasks"].push_back(std::move(entry));
+    }
+    return out;
+}
+
+std::string base64(const std::string& bytes) {
+    static constexpr const char* kDigits =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string out;
+    out.reserve((bytes.size() + 2) / 3 * 4);
+    for (std::size_t i = 0; i < bytes.size(); i += 3) {
+        unsigned group = 0;
+        for (std::size_t k = 0; k < 3; ++k)
+            group = group << 8U |
+                    (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0U);
+        for (std::size_t k = 0; k < 4; ++k)
+            out += k <= bytes.size() - i ? kDigits[group >> (18U - 6U * k) & 63U] : '=';
+    }
+    return out;
+}
+
+/// For text in a script element: nothing in it can end the element.
+std::string forScript(std::string json) {
+    std::string out;
+    for (const char c : json) {
+        if (c == '<')
+            out += "\\u003c";
+        else
+            out += c;
+    }
+    return out;
+}
+
+std::string forXml(const std::string& text) {
+    std::string out;
+    for (const char c : text) {
+        switch (c) {
+            case '<':
+                out += "&lt;";
+                break;
+            case '>':
+                out += "&gt;";
+                break;
+            case '&':
+                out += "&amp;";
+                break;
+            case '"':
+                out += "&quot;";
+                break;
+            default:
+                // XML 1.0 has no other control characters, not even escaped.
+                if (static_cast<unsigned char>(c) >= 0x20 || c == '\n' || c == '\t') out += c;
+        }
+    }
+    return out;
+}
+
+std::string forCsv(std::string field) {
+    if (!field.empty() && std::string("=+-@\t\r\n").find(field[0]) != std::string::npos)
+        field.insert(field.begin(), '\'');
+    std::string out = "\"";
+    for (const char c : field) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+    return out + "\"";
+}
+
+/// What a student reads: each loss, then each finding.
+std::string feedback(const SubmissionResult& one) {
+    std::string out;
+    const auto line = [&](const std::string& text) { out += (out.empty() ? "" : "\n") + text; };
+    for (const TaskResult& task : one.tasks) {
+        const std::string prefix = task.task.empty() ? "" : task.task + ": ";
+        if (task.json.empty()) {
+            line(prefix + task.failure);
+            continue;
+        }
+        const ordered_json grade = gradeOf(task);
+        for (const auto& finding : grade.value("findings", ordered_json::array()))
+            if (finding.value("points", 0.0) > 0.0) line(prefix + finding.value("message", ""));
+        for (const auto& diagnostic : grade.value("diagnostics", ordered_json::array()))
+            if (diagnostic.value("severity", "") == "error" || grade.value("penalty", 0.0) > 0.0)
+                line(prefix + diagnostic.value("message", "") +
+                     (diagnostic.contains("line")
+                          ? " (line " + std::to_string(diagnostic.value("line", 0)) + ")"
+                          : ""));
+        for (const auto& criterion : grade.value("criteria", ordered_json::array()))
+            if (criterion.contains("measured") &&
+                criterion.value("points", 0.0) < criterion.value("most", 0.0) &&
+                !grade.value("refused", false))
+                line(prefix + criterion.value("reason", ""));
+    }
+    return out;
+}
+
+std::string_view fileOf(const char* name) {
+    for (const EmbeddedFile& file : reportFiles())
+        if (file.name == name) return file.bytes;
+    return {};
+}
+
+}  // namespace
+
+void writeJson(std::ostream& out, const ClassResult& all) {
+    out << "{\"title\":" << dump(all.title)
+        << ",\n\"rubric\":" << dump(ordered_json::parse(all.rubric, nullptr, false))
+        << ",\n\"tasks\":" << dump(all.tasks) << ",\n\"submissions\":[";
+    for (std::size_t i = 0; i < all.count; ++i)
+        out << (i ? ",\n" : "\n") << dump(toJson(all.at(i)));
+    out << "\n]}\n";
+}
+
+void writeCsv(std::ostream& out, const ClassResult& all) {
+    out << "Identifier,Full name,Grade,Maximum Grade,Passed,Submission,Feedback comments\r\n";
+    for (std::size_t i = 0; i < all.count; ++i) {
+        const SubmissionResult one = all.at(i);
+        out << forCsv(one.number.empty() ? "" : "Participant " + one.number) << ","
+            << forCsv(one.name) << "," << number(one.points) << "," << number(one.most) << ","
+            << (one.passed ? "yes" : "no") << "," << forCsv(one.id) << "," << forCsv(feedback(one))
+            << "\r\n";
+    }
+}
+
+void writeJunit(std::ostream& out, const ClassResult& all) {
+    std::size_t tests = 0, failures = 0, errors = 0;
+    const auto failed = [](const TaskResult& task) {
+        const ordered_json grade = gradeOf(task);
+        return !task.json.empty() && !grade.value("passed", false);
+    };
+    for (std::size_t i = 0; i < all.count; ++i)
+        for (const TaskResult& task : all.at(i).tasks) {
+            ++tests;
+            errors += task.json.empty() ? 1 : 0;
+            failures += failed(task) ? 1 : 0;
+        }
+    out << "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites tests=\"" << tests
+        << "\" failures=\"" << failures << "\" errors=\"" << errors << "\">\n<testsuite name=\""
+        << forXml(all.title) << "\" tests=\"" << tests << "\" failures=\"" << failures
+        << "\" errors=\"" << errors << "\">\n";
+    for (std::size_t i = 0; i < all.count; ++i) {
+        const SubmissionResult one = all.at(i);
+        for (const TaskResult& task : one.tasks) {
+            const ordered_json grade = gradeOf(task);
+            out << "<testcase classname=\"" << forXml(one.id) << "\" name=\""
+                << forXml(task.task.empty() ? "grade" : task.task) << "\">";
+            if (task.json.empty())
+                out << "<error type=\"" << forXml(task.code) << "\" message=\""
+                    << forXml(task.failure) << "\"/>";
+            else if (failed(task))
+                out << "<failure message=\"" << number(grade.value("points", 0.0)) << " of "
+                    << number(grade.value("most", 0.0)) << " points\">" << forXml(feedback(one))
+                    << "</failure>";
+            out << "<system-out>" << number(grade.is_object() ? grade.value("points", 0.0) : 0.0)
+                << " points</system-out></testcase>\n";
+        }
+    }
+    out << "</testsuite>\n</testsuites>\n";
+}
+
+void writeHtml(std::ostream& out, const ClassResult& all) {
+    const std::string_view page = fileOf("page.html");
+    const auto put = [&](std::string_view text) { out << text; };
+    const auto part = [&](std::string_view mark, std::size_t from) {
+        const std::size_t at = page.find(mark, from);
+        put(page.substr(from, at == std::string_view::npos ? at : at - from));
+        return at == std::string_view::npos ? page.size() : at + mark.size();
+    };
+    std::size_t at = part("/*STYLE*/", 0);
+    put(fileOf("page.css"));
+    at = part("<!--DATA-->", at);
+    put("<script type=\"application/json\" id=\"class\">");
+    put(forScript(dump({{"title", all.title}, {"tasks", all.tasks}})));
+    put("</script>\n");
+    const auto pictures = [&](const std::string& id, const std::vector<std::string>& list) {
+        ordered_json urls = ordered_json::array();
+        for (const std::string& one : list)
+            urls.push_back(one.empty() ? "" : "data:image/jpeg;base64," + base64(one));
+        put("<script type=\"application/json\" class=\"pictures\" id=\"" + id + "\">");
+        put(dump(urls));
+        put("</script>\n");
+    };
+    for (std::size_t t = 0; t < all.references.size(); ++t)
+        pictures("r" + std::to_string(t), all.references[t]);
+    for (std::size_t i = 0; i < all.count; ++i) {
+        const SubmissionResult one = all.at(i);
+        put("<script type=\"application/json\" class=\"submission\">");
+        put(forScript(dump(toJson(one))));
+        put("</script>\n");
+        for (std::size_t t = 0; t < one.tasks.size(); ++t)
+            pictures("p" + std::to_string(i) + "-" + std::to_string(t), one.tasks[t].pictures);
+    }
+    at = part("/*SCRIPT*/", at);
+    put(fileOf("page.js"));
+    put(page.substr(at));
+}
+
+}  // namespace farol::grade

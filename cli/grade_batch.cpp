@@ -74,7 +74,7 @@ Batch::Batch(server::Backend& backend, std::vector<Submission> submissions,
 }
 
 std::string Batch::keyOf(const grade::Subject& subject, const Task& task) const {
-    return scene::contentDigest(digestOf(subject) + task.digest + options_.rubric +
+    return scene::contentDigest(digestOf(subject) + subject.task + task.digest + options_.rubric +
                                 backend_.version());
 }
 

@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <memory>
 #include <regex>
-#include <set>
 
 #include "cli/files.h"
 #include "scene/words.h"
@@ -18,8 +17,8 @@ constexpr std::size_t kMostFiles = 256;                     // of one submission
 constexpr std::size_t kMostBytes = std::size_t{64} << 20U;  // of one submission
 constexpr std::size_t kMostSubmissions = 100'000;
 
-const std::set<std::string> kArchives{"zip", "tar", "tgz", "gz"};
-const std::set<std::string> kPictures{"png", "jpg", "jpeg", "webp", "bmp", "tga"};
+bool isPicture(const fs::path& path) { return grade::isPictureName(path.string()); }
+bool isArchive(const fs::path& path) { return grade::isArchiveName(path.string()); }
 
 bool isHidden(const fs::path& path) {
     const std::string name = path.filename().string();
@@ -75,86 +74,6 @@ void collect(const fs::path& root, const fs::path& folder, std::map<std::string,
     }
 }
 
-std::string stemOf(const std::string& path) {
-    return scene::lowerCase(fs::path(path).stem().string());
-}
-
-long depthOf(const std::string& path) { return std::count(path.begin(), path.end(), '/'); }
-
-/// The one of `paths` that is meant, or nothing.
-std::string chooseOf(const std::vector<std::string>& paths, const std::string& task) {
-    const auto only = [](const std::vector<std::string>& some) {
-        return some.size() == 1 ? some.front() : std::string();
-    };
-    if (!task.empty()) {
-        std::vector<std::string> named;
-        for (const std::string& path : paths)
-            if (stemOf(path) == scene::lowerCase(task) ||
-                stemOf(fs::path(path).parent_path().string()) == scene::lowerCase(task))
-                named.push_back(path);
-        return only(named);
-    }
-    if (paths.size() == 1) return paths.front();
-    std::vector<std::string> usual, highest;
-    long least = 1'000'000;
-    for (const std::string& path : paths) {
-        if (stemOf(path) == "scene") usual.push_back(path);
-        least = std::min(least, depthOf(path));
-    }
-    for (const std::string& path : paths)
-        if (depthOf(path) == least) highest.push_back(path);
-    const std::string scene = only(usual);
-    return scene.empty() ? only(highest) : scene;
-}
-
-grade::Subject subjectOf(std::map<std::string, std::string> files, const std::string& path,
-                         const std::string& task) {
-    std::vector<std::string> scenes, pictures, archives;
-    for (const auto& [name, bytes] : files) {
-        const std::string kind = endingOf(name);
-        if (kind == "xml") scenes.push_back(name);
-        if (kPictures.count(kind) != 0) pictures.push_back(name);
-        if (kArchives.count(kind) != 0) archives.push_back(name);
-    }
-    grade::Subject subject;
-    const std::string scene = chooseOf(scenes, task);
-    if (!scene.empty()) {
-        subject.job.name = scene;
-        subject.job.xml = files[scene];
-        // Files are named relative to the scene's own folder.
-        const std::string folder = fs::path(scene).parent_path().generic_string();
-        std::map<std::string, std::string> near;
-        for (auto& [name, bytes] : files)
-            near[!folder.empty() && name.starts_with(folder + "/") ? name.substr(folder.size() + 1)
-                                                                   : name] = std::move(bytes);
-        subject.job.name = fs::path(scene).filename().string();
-        subject.job.assets = std::make_shared<scene::BundleAssets>(std::move(near));
-        return subject;
-    }
-    if (scenes.empty() && archives.size() == 1) {
-        subject.job.archive = files[archives.front()];
-        subject.job.name = archives.front();
-        return subject;
-    }
-    if (scenes.empty()) {
-        const std::string picture = chooseOf(pictures, task);
-        if (!picture.empty()) {
-            subject.job.name = picture;
-            subject.picture = files[picture];
-            return subject;
-        }
-    }
-    if (!scenes.empty() && task.empty())
-        throw Error("grade.which-scene",
-                    "it holds " + std::to_string(scenes.size()) +
-                        " .xml files, and none is called scene.xml",
-                    {path, 0, 0});
-    throw Error("grade.no-scene",
-                task.empty() ? "it holds no .xml file, archive or picture"
-                             : "it holds nothing that is called " + scene::shown(task),
-                {path, 0, 0});
-}
-
 }  // namespace
 
 std::vector<Submission> findSubmissions(const std::string& folder) {
@@ -164,8 +83,7 @@ std::vector<Submission> findSubmissions(const std::string& folder) {
     for (const fs::path& path : entriesOf(folder)) {
         const std::string kind = ending(path);
         if (!fs::is_directory(path) &&
-            !(fs::is_regular_file(path) &&
-              (kind == "xml" || kArchives.count(kind) != 0 || kPictures.count(kind) != 0)))
+            !(fs::is_regular_file(path) && (kind == "xml" || isArchive(path) || isPicture(path))))
             continue;
         Submission one{path.string(), path.filename().string(), "", ""};
         readMoodle(one);
@@ -194,9 +112,9 @@ std::vector<GradeTask> findTasks(const std::string& reference) {
                     folders.push_back({path.filename().string(), path.string()});
                     break;
                 }
-        } else if (ending(path) == "xml" || kArchives.count(ending(path)) != 0) {
+        } else if (ending(path) == "xml" || isArchive(path)) {
             scenes.push_back(task);
-        } else if (kPictures.count(ending(path)) != 0) {
+        } else if (isPicture(path)) {
             pictures.push_back(task);
         }
     }
@@ -213,7 +131,7 @@ grade::Subject readSubject(const std::string& path, const std::string& task, boo
     std::size_t bytes = 0;
     if (fs::is_directory(path)) {
         collect(path, path, files, bytes, 0);
-        return subjectOf(std::move(files), path, task);
+        return grade::subjectOf(std::move(files), path, task);
     }
     const std::string name = fs::path(path).filename().string();
     if (beside && endingOf(name) == "xml") {
@@ -225,7 +143,7 @@ grade::Subject readSubject(const std::string& path, const std::string& task, boo
         return subject;
     }
     files[name] = readInput(path);
-    return subjectOf(std::move(files), path, "");
+    return grade::subjectOf(std::move(files), path, isArchive(name) ? task : "");
 }
 
 }  // namespace farol::cli

@@ -31,9 +31,9 @@ Finding find(const char* code, Topic topic, const std::string& message, const Lo
 std::string shapesDiffer(const Model& theirs, const Model& mine, std::string& code) {
     const auto &wanted = theirs.source.words, &given = mine.source.words;
     if (wanted.empty() || given.empty() || wanted == given) return "";
-    code = "mesh.arguments";
+    code = "model.arguments";
     if (wanted[0] != given[0]) {
-        code = "mesh.shape";
+        code = "model.shape";
         return "it is a " + given[0] + ", expected a " + wanted[0];
     }
     if (wanted.size() == given.size() && wanted.size() >= 3) {
@@ -42,7 +42,7 @@ std::string shapesDiffer(const Model& theirs, const Model& mine, std::string& co
             std::swap(swapped[i], swapped[i + 1]);
             if (swapped == wanted) {
                 const bool last = i + 2 == swapped.size();
-                code = "mesh.swapped-arguments";
+                code = "model.swapped-arguments";
                 if (last &&
                     (wanted[0] == "cone" || wanted[0] == "sphere" || wanted[0] == "cylinder"))
                     return "slices and stacks are swapped: " + joined(given) + ", expected " +
@@ -131,7 +131,7 @@ Findings compareMeshes(const Piece& reference, const Piece& submission, const Su
         out.push_back(find(code, topic, name + what, where));
     };
     if (reference.model->twoSided != submission.model->twoSided)
-        say("mesh.culling", Topic::models,
+        say("model.culling", Topic::models,
             submission.model->twoSided ? "both sides are drawn, expected the front alone"
                                        : "the back is culled, expected both sides");
     if (surface.same()) return out;
@@ -141,27 +141,27 @@ Findings compareMeshes(const Piece& reference, const Piece& submission, const Su
         if (!what.empty())
             say(code.c_str(), Topic::models, what);
         else if (surface.compared)
-            say("mesh.shape", Topic::models,
+            say("model.shape", Topic::models,
                 "the surface is another one than that of " + meshNameOf(*reference.model));
         return out;
     }
     const bool inward = surface.normalsOpposite > kMost, reversed = surface.windingReversed > kMost;
     if (inward && reversed)
-        say("mesh.inside-out", Topic::models,
+        say("model.inside-out", Topic::models,
             "it is inside out: normals and triangles face inward");
     else if (inward)
-        say("mesh.normals-inward", Topic::models, "normals point inward");
+        say("model.normals-inward", Topic::models, "normals point inward");
     else if (reversed)
-        say("mesh.winding", Topic::models,
+        say("model.winding", Topic::models,
             "triangles are clockwise: the front is culled and the back is seen");
     else if (surface.normalsSame < kMost && surface.normalsUntransposed > kMost)
-        say("mesh.normal-matrix", Topic::models,
+        say("model.normal-matrix", Topic::models,
             "normals are scaled like positions; they need the inverse transpose (normal matrix)");
     else if (surface.normalsSame < kMost && surface.normalsOfFaces > kMost)
-        say("mesh.flat-normals", Topic::models,
+        say("model.flat-normals", Topic::models,
             "it is flat shaded: normals are those of the faces");
     else if (surface.normalsSame < kMost)
-        say("mesh.normals", Topic::models, "normals differ from those of the reference");
+        say("model.normals", Topic::models, "normals differ from those of the reference");
     if (surface.uvs && surface.uvSame < kMost && reference.model->texture) {
         if (surface.uvUpsideDown > kMost)
             say("texture.upside-down", Topic::textures,

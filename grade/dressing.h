@@ -7,7 +7,7 @@
 /// What a model shows at its place: its mesh, its texture, its colours.
 namespace farol::grade {
 
-/// Meshes that are not the same surface: codes mesh.*, texture.*. `surface` compares the two.
+/// Meshes that are not the same surface: codes model.*, texture.*. `surface` compares the two.
 Findings compareMeshes(const Piece& reference, const Piece& submission, const Surface& surface);
 
 /// Codes texture.*. Pictures are compared by what they show, not by name or format.

@@ -41,7 +41,8 @@ class Stopwatch {
 
 /// Names a scene and all its files.
 std::string identityOf(const render::Job& job) {
-    std::string all = job.name + '\n' + scene::contentDigest(job.xml);
+    std::string all =
+        job.name + '\n' + scene::contentDigest(job.xml) + scene::contentDigest(job.archive);
     if (job.assets)
         for (const std::string& path : job.assets->list())
             all += '\n' + path + '\n' + scene::contentDigest(job.assets->read(path).value_or(""));
@@ -92,11 +93,12 @@ bool differs(const render::Image& a, const render::Image& b) {
 struct Grader::State {
     explicit State(render::Renderer& with) : renderer(with) {}
 
-    std::shared_ptr<Reference> reference(const Subject& subject, const Rubric& rubric,
+    std::shared_ptr<Reference> reference(const Subject& given, const Rubric& rubric,
                                          const std::string& rubricText) {
         const std::string key =
-            scene::contentDigest(subject.picture) + identityOf(subject.job) + rubricText;
+            scene::contentDigest(given.picture) + identityOf(given.job) + given.task + rubricText;
         if (const auto* known = references.find(key)) return *known;
+        const Subject subject = opened(given);
         auto made = std::make_shared<Reference>();
         made->picture = subject.picture;
         made->job = subject.job;
@@ -279,13 +281,16 @@ std::vector<std::string> Grader::picturesOf(const Subject& reference, const Rubr
     return out;
 }
 
-Grade Grader::grade(const Subject& reference, const Subject& submission, const Rubric& rubric) {
+Grade Grader::grade(const Subject& reference, const Subject& given, const Rubric& rubric) {
     const auto against = state_->reference(reference, rubric, writeRubric(rubric));
     Grade grade;
     grade.most = rubric.points;
     Findings findings;
-    const bool scenes = reference.picture.empty() && submission.picture.empty();
+    Subject submission = given;
+    bool scenes = against->picture.empty();
     try {
+        submission = opened(given);
+        scenes = scenes && submission.picture.empty();
         if (scenes)
             state_->compare(*against, submission, rubric, grade, findings);
         else

@@ -6,15 +6,10 @@
 
 #include "grade/finding.h"
 #include "grade/rubric.h"
+#include "grade/subject.h"
 #include "render/renderer.h"
 
 namespace farol::grade {
-
-/// What is graded, or graded against: a scene, or a picture of one.
-struct Subject {
-    render::Job job;      ///< its options are not used; job.name also names a picture
-    std::string picture;  ///< a picture file's bytes; empty: the job is the scene
-};
 
 /// One criterion's share in a grade.
 struct CriterionGrade {

@@ -148,11 +148,11 @@ bool isArchive(string_view bytes) {
            (bytes.size() > kTarMagic && bytes.substr(kTarMagic).starts_with("ustar"));
 }
 
-Bundle readArchive(string_view bytes) {
+std::map<std::string, std::string> readFiles(string_view bytes) {
     const Utf8Locale locale;
     const Reader reader = opened(bytes);
     const std::size_t allowed = allowedBytes(bytes.size());
-    Bundle bundle;
+    std::map<std::string, std::string> files;
     std::size_t taken = 0;
     archive_entry* entry = nullptr;
     for (int entries = 0;; ++entries) {
@@ -171,16 +171,22 @@ Bundle readArchive(string_view bytes) {
         if (archive_entry_filetype(entry) == AE_IFDIR || isClutter(path)) continue;
         checkPath(path);
         checkKind(reader.get(), entry, path);
-        if (bundle.files.size() == kMaxBundleFiles)
+        if (files.size() == kMaxBundleFiles)
             throw Error("limit.bundle",
                         "The archive has more than " + std::to_string(kMaxBundleFiles) + " files.");
-        if (bundle.files.count(path) != 0)
+        if (files.count(path) != 0)
             throw Error("bundle.path", "The file " + quoted(path) + " is in the archive twice.");
         std::string content = contentOf(reader.get(), allowed - taken, bytes.size());
         taken += content.size();
-        bundle.files.emplace(path, std::move(content));
+        files.emplace(path, std::move(content));
     }
-    stripTop(bundle.files);
+    stripTop(files);
+    return files;
+}
+
+Bundle readArchive(string_view bytes) {
+    Bundle bundle;
+    bundle.files = readFiles(bytes);
     bundle.main = mainOf(bundle.files);
     return bundle;
 }

@@ -65,6 +65,7 @@ class Service final : public http::Handler {
     http::Response drawn(Done<render::Picture> done);
     http::Response postRender(const Call& call);
     http::Response postValidate(const Call& call);
+    http::Response postGrade(const Call& call);
     http::Response listScenes(const Call& call);
     http::Response postScene(const Call& call);
     http::Response deleteScene(const Call& call);

@@ -79,6 +79,12 @@ bool isArchiveType(const std::string& type) {
     return std::find(std::begin(kTypes), std::end(kTypes), type) != std::end(kTypes);
 }
 
+void refuseEncoding(const http::Request& request) {
+    const auto encoding = request.header("content-encoding");
+    if (encoding && mediaType(*encoding) != "identity")
+        throw Error("http.content-encoding", "Compressed bodies are not taken: send it as it is.");
+}
+
 Upload fromArchive(std::string bytes, const std::string& type) {
     if (!scene::isArchive(bytes)) {
         const bool said = type != "application/octet-stream";
@@ -102,10 +108,18 @@ render::Job jobOf(const std::shared_ptr<const scene::Bundle>& bundle) {
     return job;
 }
 
+std::vector<Part> readParts(const http::Request& request, http::Body& body, std::size_t maxBytes) {
+    refuseEncoding(request);
+    const std::string contentType = request.header("content-type").value_or("");
+    if (mediaType(contentType) != "multipart/form-data")
+        throw Error("http.media-type", "The body is sent as multipart/form-data.");
+    const auto boundary = boundaryOf(contentType);
+    if (!boundary) throw Error("http.multipart", "The Content-Type has no usable boundary.");
+    return parseMultipart(body.read(maxBytes), *boundary);
+}
+
 Upload readUpload(const http::Request& request, http::Body& body, std::size_t maxBytes) {
-    const auto encoding = request.header("content-encoding");
-    if (encoding && mediaType(*encoding) != "identity")
-        throw Error("http.content-encoding", "Compressed bodies are not taken: send it as it is.");
+    refuseEncoding(request);
     const std::string contentType = request.header("content-type").value_or("application/xml");
     const std::string type = mediaType(contentType);
     Upload upload;
@@ -114,9 +128,7 @@ Upload readUpload(const http::Request& request, http::Body& body, std::size_t ma
             scene::Bundle{"scene.xml", {{"scene.xml", body.read(maxBytes)}}});
         upload.job = jobOf(upload.bundle);
     } else if (type == "multipart/form-data") {
-        const auto boundary = boundaryOf(contentType);
-        if (!boundary) throw Error("http.multipart", "The Content-Type has no usable boundary.");
-        upload = fromParts(parseMultipart(body.read(maxBytes), *boundary));
+        upload = fromParts(readParts(request, body, maxBytes));
     } else if (isArchiveType(type)) {
         upload = fromArchive(body.read(maxBytes), type);
     } else {

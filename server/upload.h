@@ -6,6 +6,7 @@
 #include "render/renderer.h"
 #include "scene/bundle.h"
 #include "server/http/message.h"
+#include "server/multipart.h"
 
 namespace farol::server {
 
@@ -22,6 +23,10 @@ struct Upload {
 /// zip or tar of them, which is opened by a worker only. Throws Error http.content-encoding,
 /// http.media-type, limit.body, http.multipart, http.body, xml.empty, bundle.*.
 Upload readUpload(const http::Request& request, http::Body& body, std::size_t maxBytes);
+
+/// The parts of a multipart/form-data body. Throws Error http.content-encoding, http.media-type,
+/// limit.body, http.multipart, http.body.
+std::vector<Part> readParts(const http::Request& request, http::Body& body, std::size_t maxBytes);
 
 /// The job of a bundle whose paths are safe, under its digest; the files are shared, not copied.
 render::Job jobOf(const std::shared_ptr<const scene::Bundle>& bundle);

@@ -130,7 +130,6 @@ function detail(one) {
       return;
     }
     const grade = task.grade;
-    parts.push(comparison(one, task, index));
     if (grade.findings.length) {
       parts.push(make('h3', {}, 'Findings'), make('ul', {class: 'findings'}, ...grade.findings.map((finding) =>
         make('li', {}, finding.message, ' ',
@@ -140,6 +139,7 @@ function detail(one) {
     if (grade.diagnostics.length)
       parts.push(make('h3', {}, 'Diagnostics'), make('ul', {class: 'findings'}, ...grade.diagnostics.map((entry) =>
         make('li', {}, make('span', {class: entry.severity === 'error' ? 'bad' : 'dim'}, entry.severity + ': '), entry.message, place(entry)))));
+    parts.push(comparison(one, task, index));
     parts.push(make('h3', {}, 'Points'), make('table', {}, ...grade.criteria.map((entry) =>
       make('tr', {}, make('td', {}, entry.measure),
         make('td', {}, make('div', {class: 'bar'}, make('i', {style: `width:${entry.most ? 100 * entry.points / entry.most : 0}%`}))),

@@ -79,7 +79,8 @@ GradeReply makeGrade(grade::Grader& grader, const GradeJob& job) {
     const grade::Rubric rubric =
         job.rubric.empty() ? grade::defaultRubric() : grade::readRubric(job.rubric, "rubric.json");
     GradeReply reply;
-    if (job.submission.job.xml.empty() && job.submission.picture.empty()) {
+    const render::Job& given = job.submission.job;
+    if (given.xml.empty() && given.archive.empty() && job.submission.picture.empty()) {
         reply.pictures = grader.picturesOf(job.reference, rubric);
         return reply;
     }

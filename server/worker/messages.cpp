@@ -180,7 +180,7 @@ std::string pack(const Request& request) {
     const auto& [task, job, mesh, turntable, notice, grade] = request;
     Packer packer;
     packer(task, mesh, turntable, notice, grade.rubric, grade.reference.picture,
-           grade.submission.picture);
+           grade.reference.task, grade.submission.picture, grade.submission.task);
     packJob(packer, job);
     packJob(packer, grade.reference.job);
     return packer.take();
@@ -191,7 +191,8 @@ Request unpackRequest(std::string_view bytes) {
     Unpacker unpacker(bytes);
     GradeJob& grade = request.grade;
     unpacker(request.task, request.mesh, request.turntable, request.notice, grade.rubric,
-             grade.reference.picture, grade.submission.picture);
+             grade.reference.picture, grade.reference.task, grade.submission.picture,
+             grade.submission.task);
     unpackJob(unpacker, request.job);
     unpackJob(unpacker, grade.reference.job);
     unpacker.end();

@@ -58,7 +58,10 @@ fs::path folderWithScenes(const std::string& name) {
 }  // namespace
 
 TEST_CASE("the README's commands do what it says") {
-    folderWithScenes("readme");
+    const fs::path readers = folderWithScenes("readme");
+    fs::create_directories(readers / "submissions");
+    fs::copy(readers / "scenes" / "snowman", readers / "submissions" / "ana",
+             fs::copy_options::recursive | fs::copy_options::overwrite_existing);
     const std::vector<std::string> commands = examples("farol");
     REQUIRE(commands.size() >= 10);
     for (const std::string& command : commands) {
@@ -67,7 +70,7 @@ TEST_CASE("the README's commands do what it says") {
         CHECK(found.status == 0);
     }
     for (const char* made : {"system.png", "detail.webp", "house.jpg", "lines.png", "sphere.obj",
-                             "teapot.png", "where.png"})
+                             "teapot.png", "where.png", "report/report.html", "report/grades.csv"})
         CHECK(exists(made));
 }
 

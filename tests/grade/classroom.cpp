@@ -80,8 +80,9 @@ std::vector<ReferenceScene> referenceScenes() {
     std::vector<ReferenceScene> all;
     std::set<std::string> kept;
     // Those that are drawn quickly; the others show nothing more of a grader.
-    for (const char* name : {"can-and-pawns", "chess-hare", "house", "police-box", "primitives",
-                             "robot-arm", "snowman", "solar-system-wireframe", "teapots", "torch"}) {
+    for (const char* name :
+         {"can-and-pawns", "chess-hare", "house", "police-box", "primitives", "robot-arm",
+          "snowman", "solar-system-wireframe", "teapots", "torch"}) {
         ReferenceScene one{name, readFile(root / name / "scene.xml"), {}};
         for (const auto& entry : fs::directory_iterator(root / name))
             if (entry.path().filename() != "scene.xml")

@@ -149,10 +149,18 @@ TEST_CASE("every route answers with statuses that the document lists") {
                 target.replace(at, name.size(), value);
         if (key.second == "delete") continue;  // store_test.cpp has its table
         const std::string method = key.second == "post" ? "POST" : "GET";
-        const std::string body = method == "POST" ? "<world/>" : "";
-        std::vector<Ask> probes = {{method, target, {}, body},
-                                   {method, target + "?nonsense=1", {}, body},
-                                   {method, target, {{"Accept", "text/nothing"}}, body}};
+        std::string body = method == "POST" ? "<world/>" : "";
+        std::vector<std::pair<std::string, std::string>> type, unacceptable;
+        if (key.first == "/v1/grade") {
+            body = multipart(
+                {{"submission", "s.xml", "<world/>", ""}, {"reference", "r.xml", "<world/>", ""}});
+            type.emplace_back("Content-Type", kMultipartType);
+        }
+        unacceptable = type;
+        unacceptable.emplace_back("Accept", "text/nothing");
+        std::vector<Ask> probes = {{method, target, type, body},
+                                   {method, target + "?nonsense=1", type, body},
+                                   {method, target, unacceptable, body}};
         if (method == "POST") {
             probes.push_back({method, target, {{"Content-Type", "text/plain"}}, body});
             probes.push_back({method, target, {}, std::string(1001, ' ')});

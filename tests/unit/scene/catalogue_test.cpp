@@ -39,7 +39,7 @@ std::set<std::string> codesInSources() {
             all.merge(
                 matches(readFile(entry.path()),
                         "\"((?:xml|scene|asset|shape|mesh|image|limit|option|http|busy|worker|"
-                        "bundle|store)"
+                        "bundle|store|grade|rubric)"
                         "\\.[a-z]+(?:-[a-z]+)*|not-ready)\""));
         }
     }

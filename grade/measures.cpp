@@ -27,16 +27,16 @@ struct Extremes {
                 const std::size_t at = y * row + i;
                 const std::uint8_t left = i >= 3 ? levels[at - 3] : levels[at];
                 const std::uint8_t right = i + 3 < row ? levels[at + 3] : levels[at];
-                lowRow[at] = std::min({left, levels[at], right});
-                highRow[at] = std::max({left, levels[at], right});
+                lowRow[at] = std::min(std::min(left, right), levels[at]);
+                highRow[at] = std::max(std::max(left, right), levels[at]);
             }
         low.resize(levels.size());
         high.resize(levels.size());
         for (std::size_t at = 0; at < levels.size(); ++at) {
             const std::size_t above = at >= row ? at - row : at;
             const std::size_t below = at + row < levels.size() ? at + row : at;
-            low[at] = std::min({lowRow[above], lowRow[at], lowRow[below]});
-            high[at] = std::max({highRow[above], highRow[at], highRow[below]});
+            low[at] = std::min(std::min(lowRow[above], lowRow[below]), lowRow[at]);
+            high[at] = std::max(std::max(highRow[above], highRow[below]), highRow[at]);
         }
     }
     int beyond(std::size_t at, std::uint8_t level) const {
@@ -71,12 +71,14 @@ std::array<std::uint8_t, 3> borderColor(const render::Image& image) {
 
 Plane beyondAPixel(const render::Image& first, const render::Image& second, int full) {
     requireSameSize(first.width, first.height, second.width, second.height);
+    if (first == second)
+        return {first.width, first.height, std::vector<float>(first.pixels.size() / 4)};
     const Extremes a(first), b(second);
     Plane out{first.width, first.height, std::vector<float>(first.pixels.size() / 4)};
     for (std::size_t i = 0; i < out.values.size(); ++i) {
         int worst = 0;
         for (std::size_t c = 3 * i; c < 3 * i + 3; ++c)
-            worst = std::max({worst, a.beyond(c, b.levels[c]), b.beyond(c, a.levels[c])});
+            worst = std::max(worst, std::max(a.beyond(c, b.levels[c]), b.beyond(c, a.levels[c])));
         out.values[i] = std::min(1.0F, static_cast<float>(worst) / static_cast<float>(full));
     }
     return out;
@@ -132,6 +134,7 @@ double uncovered(const std::vector<std::uint32_t>& reference,
     struct Counts {
         double pixels = 0, shared = 0, missed = 0;
     };
+    if (reference == submission) return 0.0;
     std::map<std::uint32_t, Counts> objects;
     std::uint32_t last = 0;  // neighbours mostly show the same object
     Counts* counts = nullptr;

@@ -46,7 +46,8 @@ void numbers(const json& schema, std::vector<std::string> path, const Each& each
                (type.is_array() && std::find(type.begin(), type.end(), name) != type.end());
     };
     if (is("number") || is("integer")) each(path, schema);
-    for (const auto& [name, inner] : schema.value("properties", json::object()).items()) {
+    const json properties = schema.value("properties", json::object());
+    for (const auto& [name, inner] : properties.items()) {
         auto longer = path;
         longer.push_back(name);
         numbers(inner, longer, each);

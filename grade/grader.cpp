@@ -45,7 +45,7 @@ std::string identityOf(const render::Job& job) {
         job.name + '\n' + scene::contentDigest(job.xml) + scene::contentDigest(job.archive);
     if (job.assets)
         for (const std::string& path : job.assets->list())
-            all += '\n' + path + '\n' + scene::contentDigest(job.assets->read(path).value_or(""));
+            all += '\n' + path + '\n' + job.assets->version(path);
     return scene::contentDigest(all);
 }
 

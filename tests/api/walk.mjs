@@ -63,6 +63,10 @@ async function ask(operation, method, target, options = {}) {
 
 const xml = '<world><group><models><model file="box_1_2.3d"/></models></group></world>';
 const sample = { method: 'POST', headers: { 'Content-Type': 'application/xml' }, body: xml };
+const form = new FormData();
+form.append('submission', new Blob([xml]), 'submission.xml');
+form.append('reference', new Blob([xml]), 'reference.xml');
+const graded = { method: 'POST', body: form };
 const upload = await (await fetch(`${base}/v1/scenes`, sample)).json();
 
 // The page's files have names of their content; a build without npm has none.
@@ -86,7 +90,7 @@ function probesOf({ name, schema }) {
 }
 
 async function walk(pattern, method, operation) {
-    const options = method === 'post' ? sample : {};
+    const options = method !== 'post' ? {} : pattern === '/v1/grade' ? graded : sample;
     const target = targetOf(pattern);
     if (method === 'delete') return;  // below, when nothing else needs the scene
     const { answer } = await ask(operation, method, target + (pattern.includes('{shape}') ? '?args=1,2,4,3' : ''), options);

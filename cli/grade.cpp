@@ -23,7 +23,7 @@ namespace {
 struct Flags {
     std::string reference, submissions, output, rubric;
     int jobs = 0;
-    double deadlineS = 30.0;
+    double deadlineS = 60.0;
     std::size_t memoryMiB = 1024;
     bool printRubric = false;
 };

@@ -138,9 +138,9 @@ struct Scatter {
 };
 
 struct Group {
-    std::vector<Transform> transforms;  ///< each multiplies on the right, as OpenGL's stack does
+    std::vector<Transform> transforms;   ///< each multiplies on the right, as OpenGL's stack does
     std::vector<Location> transformsAt;  ///< where each stands in its document; else empty
-    std::vector<Light> lights;          ///< light this group and what is below it only
+    std::vector<Light> lights;           ///< light this group and what is below it only
     std::vector<Model> models;
     std::vector<Group> groups;
     std::optional<Scatter> scatter;

@@ -118,12 +118,16 @@ export const getSource = async (id: string): Promise<string> => (await request(`
 export const validate = (body: RequestInit, base: string | null): Promise<SceneFacts & Partial<ModelPlaces>> =>
   json(`/v1/validate?${query(base === null ? { models: 1 } : { models: 1, base })}`, { method: 'POST', ...body });
 
-/** A finding as a sentence with its place. */
-export function sentence(finding: Finding): string {
+const asSentence = (text: string): string => {
+  const ended = /[.?!]\s*$/.test(text) ? text.trimEnd() : `${text.trimEnd()}.`;
+  return ended.charAt(0).toUpperCase() + ended.slice(1);
+};
+
+/** A finding as a sentence, with its place or without. */
+export function sentence(finding: Finding, placed = true): string {
   const column = finding.column ? `, column ${finding.column}` : '';
-  const where = finding.line ? `Line ${finding.line}${column}: ` : '';
-  const text = finding.message.replace(/[.\s]*$/, '.');
-  return where + text.charAt(0).toUpperCase() + text.slice(1);
+  const where = finding.line && placed ? `Line ${finding.line}${column}: ` : '';
+  return where + asSentence(finding.message);
 }
 
 /** What went wrong, as findings, whatever was thrown. */

@@ -14,7 +14,7 @@ import {
 } from '@codemirror/view';
 import { tags } from '@lezer/highlight';
 import schema from 'virtual:schema';
-import type { Finding } from '../api.ts';
+import { sentence, type Finding } from '../api.ts';
 import { cureOf } from '../cures.ts';
 import { changeBetween, indexOfColumn, wordLength } from './places.ts';
 
@@ -92,7 +92,7 @@ export function createEditor(host: HTMLElement, text: string, changed: (text: st
     const from = Math.min(line.from + index, line.to), cure = cureOf(finding.code);
     return {
       from, to: Math.min(line.to, from + wordLength(line.text, index)), severity: finding.severity, source: finding.code,
-      message: cure ? `${finding.message}\n${cure}` : finding.message,
+      message: [sentence(finding, false), cure].filter(Boolean).join('\n'),
     };
   };
   return {

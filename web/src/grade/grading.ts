@@ -68,7 +68,7 @@ export class Grading {
       const response = await patient(() => request('/v1/grade', { method: 'POST', body: form }));
       this.set(subject, { state: 'done', grade: (await response.json()) as Grade });
     } catch (fault) {
-      this.set(subject, { state: 'failed', problem: findingsOf(fault).map(sentence).join(' ') });
+      this.set(subject, { state: 'failed', problem: findingsOf(fault).map((one) => sentence(one)).join(' ') });
     }
   }
 }

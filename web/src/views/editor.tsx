@@ -14,7 +14,7 @@ export function Editor({ viewer }: { viewer: Viewer }) {
   const [storing, setStoring] = useState(false);
   const ready = viewer.text.value !== null;
   useEffect(() => {
-    viewer.loadText().catch((fault: unknown) => setProblem(findingsOf(fault).map(sentence).join(' ')));
+    viewer.loadText().catch((fault: unknown) => setProblem(findingsOf(fault).map((one) => sentence(one)).join(' ')));
   }, [viewer]);
   useEffect(() => {
     if (!ready) return;

@@ -32,7 +32,7 @@ async function load(page: number): Promise<void> {
     listing.value = { words: text, scenes, pages: answer.pages, page, total: answer.total };
     problem.value = '';
   } catch (fault) {
-    if (number === request) problem.value = `The scenes cannot be listed. ${findingsOf(fault).map(sentence).join(' ')}`;
+    if (number === request) problem.value = `The scenes cannot be listed. ${findingsOf(fault).map((one) => sentence(one)).join(' ')}`;
   } finally {
     if (number === request) loading.value = false;
   }

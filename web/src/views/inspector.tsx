@@ -136,7 +136,7 @@ export function Inspector({ viewer }: { viewer: Viewer }) {
   const [problem, setProblem] = useState('');
   useEffect(() => {
     chosen.value = null;
-    viewer.loadText().catch((fault: unknown) => setProblem(findingsOf(fault).map(sentence).join(' ')));
+    viewer.loadText().catch((fault: unknown) => setProblem(findingsOf(fault).map((one) => sentence(one)).join(' ')));
   }, [viewer]);
   const text = viewer.text.value, picked = viewer.picked.value;
   const roots = useMemo(() => parseXml(text ?? ''), [text]);

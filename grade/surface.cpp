@@ -11,7 +11,7 @@ using generator::Mesh;
 
 constexpr std::size_t kMostVertices = 100'000;
 constexpr double kNearly = 0.98;     // of the corners: seams and poles may be split otherwise
-constexpr double kSameCos = 0.996;   // 5 degrees: normals that were averaged otherwise
+constexpr double kSameCos = 0.9995;  // 1.8 degrees: less than between faces of 64 slices
 constexpr float kSameUv = 0.004F;    // about a texel of 256
 constexpr double kSamePlace = 1e-4;  // of the extents: what text files round
 

@@ -299,12 +299,15 @@ Result smallColors(Work& work) {
     });
 }
 
+/// Of all materials: the first one's highlight may lie outside the picture.
 Result noSpecular(Work& work) {
-    return changeMaterial(work, [](scene::Material& material) {
-        const bool had = material.specular.rgb != glm::vec3(0.0F);
+    bool had = false;
+    changeMaterial(work, [&](scene::Material& material) {
+        had = had || material.specular.rgb != glm::vec3(0.0F);
         material.specular.rgb = glm::vec3(0.0F);
-        return had;
+        return false;
     });
+    return had ? written(work) : Result();
 }
 
 Result shininess(Work& work) {

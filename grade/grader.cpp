@@ -209,7 +209,8 @@ struct Grader::State {
         }
         if (theirs.width != mine.width || theirs.height != mine.height) {
             const auto cut = [&](render::Image& image, const render::Image& like) {
-                if (rubric.cropAuto)
+                const int larger = std::max(image.width - like.width, image.height - like.height);
+                if (rubric.cropAuto && larger > kNearlyPx)
                     image =
                         crop(image, clientArea(image, render::ImageSize{like.width, like.height}));
             };

@@ -157,6 +157,19 @@ test('a deep link restores the view, and the view makes the link', async () => {
   await view.close();
 });
 
+test('a stage of another size gets a picture of its size', async () => {
+  const view = await openScene('torch', { viewport: { width: 1200, height: 700 } });
+  for (const change of [() => view.page.getByRole('button', { name: 'Panel' }).click(), () => view.page.setViewportSize({ width: 1000, height: 640 })]) {
+    const before = view.full().length;
+    await change();
+    for (let i = 0; view.full().length === before && i < 100; ++i) await view.page.waitForTimeout(100);
+    await settled(view);
+    const area = await box(view), shown = await canvasPixels(view.page);
+    assert.deepEqual([shown.width, shown.height], [Math.round(area.width), Math.round(area.height)]);
+  }
+  await view.close();
+});
+
 test('walking: the arrows turn, W moves ahead', async () => {
   const view = await openScene('third-person-ship');
   await view.page.locator('.stage').focus();

@@ -65,7 +65,7 @@ export class Viewer {
   private draftTimer: ReturnType<typeof setTimeout> | undefined;
   private typeTimer: ReturnType<typeof setTimeout> | undefined;
   private latest: Frame | null = null;
-  private latestSeq = 0;
+  private asked = ''; // the size of the last picture that was asked for
   private closed = false;
   private known: { text: string; facts: SceneFacts & Partial<ModelPlaces> } | null = null; // of the edited document
 
@@ -78,6 +78,7 @@ export class Viewer {
     this.loop = new FrameLoop<Frame>({
       ask: async ({ seq, pace }, signal) => {
         const options = this.pictureOptions();
+        this.asked = `${options['width']} ${options['height']}`;
         if (pace) Object.assign(options, { scale: pace.scale, aa: 1, error: 1, format: pace.format, quality: pace.quality });
         else options['format'] = 'png';
         const response = await fetchPicture(this.origin(), { ...options, session: this.session, seq }, signal);
@@ -287,7 +288,6 @@ export class Viewer {
     if (picture.camera && !this.home) this.home = picture.camera;
     this.latest?.bitmap.close();
     this.latest = picture;
-    this.latestSeq = seq;
     if (!moving) void this.refresh();
   }
 
@@ -307,10 +307,10 @@ export class Viewer {
     if (JSON.stringify(found) !== JSON.stringify(this.findings.value)) this.findings.value = found;
   }
 
-  /** The picture before the next one, for a stage of another size. */
-  redraw(): void {
-    if (this.latest) this.canvas?.draw(this.latest.bitmap, this.latestSeq);
-    this.moved();
+  /** The stage may have another size than the picture that was asked for. */
+  resized(): void {
+    const { width, height } = this.sizeOptions();
+    if (this.asked !== '' && this.asked !== `${width} ${height}`) this.moved();
   }
 
   moved(): void {

@@ -25,7 +25,6 @@ export function Stage({ viewer, actions }: { viewer: Viewer; actions: Actions })
   const canvas = useRef<HTMLCanvasElement>(null);
   useEffect(() => {
     const box = stage.current as HTMLDivElement, surface = canvas.current as HTMLCanvasElement;
-    const asked = { width: 0, height: 0 }; // the size of the last picture that was asked for
     const context = surface.getContext('2d', { alpha: false });
     viewer.canvas = {
       draw(bitmap, seq) {
@@ -36,15 +35,10 @@ export function Stage({ viewer, actions }: { viewer: Viewer; actions: Actions })
         context?.drawImage(bitmap, 0, 0);
         surface.dataset['seq'] = String(seq);
       },
-      size() {
-        [asked.width, asked.height] = [box.clientWidth, box.clientHeight];
-        return { ...asked, ratio: window.devicePixelRatio || 1 };
-      },
+      size: () => ({ width: box.clientWidth, height: box.clientHeight, ratio: window.devicePixelRatio || 1 }),
     };
     const stop = listen(box, viewer, actions);
-    const observer = new ResizeObserver(() => {
-      if (box.clientWidth !== asked.width || box.clientHeight !== asked.height) viewer.redraw();
-    });
+    const observer = new ResizeObserver(() => viewer.resized());
     observer.observe(box);
     return () => {
       stop();

@@ -67,8 +67,13 @@ void addServe(CLI::App& root, Action& action) {
         ->add_option("--data", options->dataDir,
                      "folder to keep uploaded scenes in; default: in memory, until the end")
         ->type_name("DIR");
+    command
+        ->add_option("--store", options->storeUrl,
+                     "a Redis to keep them in, shared with other services: "
+                     "redis://[user:password@]host[:port][/database]")
+        ->type_name("URL");
     add("--store-bytes", options->storeBytes,
-        "of uploaded scenes, bytes; 0: 1 GiB with --data, else 128 MiB", 0, 1e15);
+        "of uploaded scenes, bytes; 0: 1 GiB with --data or --store, else 128 MiB", 0, 1e15);
     addSeconds(*command, "--expire", options->expire,
                "how long an uploaded scene is kept, s; 0: for good", 0.0, 1e9);
     command

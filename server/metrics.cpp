@@ -72,7 +72,7 @@ void Metrics::write(std::string& out, const std::string& name, const std::string
     line(out, name + "_count" + labels, count);
 }
 
-std::string Metrics::text(const BackendState& backend, PictureCache::Counts pictures,
+std::string Metrics::text(const BackendState& backend, PictureCache::Counts pictures, bool storeUp,
                           const std::string& version, const std::string& renderer) const {
     std::string out;
     const std::lock_guard lock(mutex_);
@@ -110,6 +110,8 @@ std::string Metrics::text(const BackendState& backend, PictureCache::Counts pict
          static_cast<double>(pictures.hits));
     line(out, "farol_cache_requests_total{cache=\"picture\",result=\"miss\"}",
          static_cast<double>(pictures.misses));
+    head(out, "farol_store_up", "gauge", "Whether the store of uploads could be asked last time.");
+    line(out, "farol_store_up", storeUp ? 1 : 0);
     head(out, "farol_build_info", "gauge", "What is running.");
     line(out, "farol_build_info{version=" + quoted(version) + ",renderer=" + quoted(renderer) + "}",
          1);

@@ -19,7 +19,7 @@ class Metrics {
     void request(const std::string& route, int status, double milliseconds);
     /// `stage` as in Server-Timing.
     void stage(const std::string& stage, double milliseconds);
-    std::string text(const BackendState& backend, PictureCache::Counts pictures,
+    std::string text(const BackendState& backend, PictureCache::Counts pictures, bool storeUp,
                      const std::string& version, const std::string& renderer) const;
 
   private:

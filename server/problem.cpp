@@ -21,7 +21,7 @@ int statusOf(const std::string& code) {
         {"worker.killed", 503},       {"worker.quarantine", 503},
         {"busy.superseded", 409},     {"limit.rate", 429},
         {"grade.no-submission", 400}, {"grade.no-reference", 400},
-        {"not-ready", 503},
+        {"not-ready", 503},           {"store.unreachable", 503},
     };
     if (const auto found = kExact.find(code); found != kExact.end()) return found->second;
     for (const char* family : {"option.", "http.", "xml.", "bundle."})

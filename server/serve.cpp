@@ -11,6 +11,7 @@
 #include "server/server.h"
 #include "server/store/disk_store.h"
 #include "server/store/memory_store.h"
+#include "server/store/redis_store.h"
 #include "server/worker/pool.h"
 
 namespace farol::server {
@@ -33,21 +34,30 @@ void checkOptions(const ServeOptions& options) {
     range("worker-memory", static_cast<long>(options.workerMemoryMiB), 0, 1L << 20);
     range("queue", options.queue.waiting, 0, 10'000);
     range("max-body", static_cast<long>(options.maxBodyBytes), 1, 1L << 30);
+    if (!options.storeUrl.empty()) {
+        if (!options.dataDir.empty())
+            throw Error("option.repeated",
+                        "data and store both say where uploaded scenes are kept: give one", {},
+                        "store");
+        store::redisAddressOf(options.storeUrl);  // throws for one that cannot be
+    }
     std::error_code ignored;
     if (!options.scenesDir.empty() && !std::filesystem::is_directory(options.scenesDir, ignored))
         throw Error("asset.missing", "there is no folder " + options.scenesDir, {}, "scenes");
 }
 
 std::shared_ptr<store::SceneStore> openStore(const ServeOptions& options, Logger& logger) {
-    const bool onDisk = !options.dataDir.empty();
+    const bool inMemory = options.dataDir.empty() && options.storeUrl.empty();
     store::StoreLimits limits;
-    limits.bytes = std::uint64_t{onDisk ? 1024U : 128U} << 20U;
+    limits.bytes = std::uint64_t{inMemory ? 128U : 1024U} << 20U;
     if (options.storeBytes > 0) limits.bytes = options.storeBytes;
     limits.expire = std::chrono::ceil<std::chrono::seconds>(options.expire);
-    if (!onDisk) return std::make_shared<store::MemoryStore>(limits);
-    return std::make_shared<store::DiskStore>(
-        options.dataDir, limits,
-        [&logger](const std::string& message) { logger.event("store", message); });
+    if (inMemory) return std::make_shared<store::MemoryStore>(limits);
+    const auto log = [&logger](const std::string& message) { logger.event("store", message); };
+    if (!options.dataDir.empty())
+        return std::make_shared<store::DiskStore>(options.dataDir, limits, log);
+    return std::make_shared<store::RedisStore>(store::redisAddressOf(options.storeUrl), limits,
+                                               log);
 }
 
 std::string urlOf(const std::string& host, int port) {

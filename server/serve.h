@@ -24,7 +24,8 @@ struct ServeOptions {
     RateLimit rate;
     std::string corsOrigin;        ///< empty: no CORS headers
     std::string dataDir;           ///< of uploaded scenes; empty: they live in memory
-    std::uint64_t storeBytes = 0;  ///< of uploads; 0: 1 GiB in dataDir, 128 MiB in memory
+    std::string storeUrl;          ///< of a Redis that keeps them instead, shared with others
+    std::uint64_t storeBytes = 0;  ///< of uploads; 0: 1 GiB, 128 MiB in memory
     std::chrono::milliseconds expire{7LL * 24 * 3600 * 1000};  ///< of uploads; 0: never
     std::string token;  ///< that writing needs; empty: $FAROL_TOKEN, else none
 };

@@ -169,8 +169,10 @@ http::Response Service::readyz(const Call& call) {
         throw Busy("not-ready", "The renderer does not draw as it should.", 5);
     }
     const BackendState state = backend_.state();
-    return jsonResponse(
-        {{"status", "ready"}, {"workers", state.workers}, {"queued", state.queued}});
+    return jsonResponse({{"status", "ready"},
+                         {"workers", state.workers},
+                         {"queued", state.queued},
+                         {"store", store_->isReachable() ? "reachable" : "unreachable"}});
 }
 
 http::Response Service::version(const Call& call) {
@@ -189,8 +191,8 @@ http::Response Service::metrics(const Call& call) {
     noParameters(call);
     http::Response response;
     response.contentType = "text/plain; version=0.0.4; charset=utf-8";
-    response.body =
-        metrics_.text(backend_.state(), pictures_.counts(), projectVersion(), backend_.version());
+    response.body = metrics_.text(backend_.state(), pictures_.counts(), store_->isReachable(),
+                                  projectVersion(), backend_.version());
     response.set("Cache-Control", "no-store");
     return response;
 }

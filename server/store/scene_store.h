@@ -35,7 +35,7 @@ struct StoreLimits {
 };
 
 /// Scenes by the digest of their content. All calls may come from many threads. Throws Busy
-/// store.full or store.failed when it cannot write; nothing is kept then.
+/// store.full, store.failed or store.unreachable when it cannot do it; nothing is kept then.
 class SceneStore {
   public:
     virtual ~SceneStore() = default;
@@ -59,6 +59,8 @@ class SceneStore {
     virtual std::size_t expire() = 0;
     /// How much is kept.
     virtual std::uint64_t bytes() const = 0;
+    /// Whether the last call found what keeps the scenes: false while a shared store is away.
+    virtual bool isReachable() const { return true; }
 };
 
 /// The id of a bundle: "~" and 32 hexadecimal digits.

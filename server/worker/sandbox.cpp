@@ -40,8 +40,11 @@ std::string limitResources(std::size_t memoryBytes) {
 std::string shaderCache() {
     namespace fs = std::filesystem;
     fs::path folder;
-    const auto from = [&](const char* variable, const char* below) {
+    const char* single = std::getenv("MESA_DISK_CACHE_SINGLE_FILE");
+    const bool isSingle = single != nullptr && std::strcmp(single, "1") == 0;
+    const auto from = [&](const char* variable, std::string below) {
         const char* value = std::getenv(variable);
+        if (isSingle) below += "_sf";
         if (folder.empty() && value != nullptr && *value != '\0') folder = fs::path(value) / below;
     };
     from("MESA_SHADER_CACHE_DIR", "mesa_shader_cache");

@@ -1,0 +1,99 @@
+#pragma once
+
+/// What Redis runs, each as a whole (redis.io, "Scripting with Lua"). KEYS[1] is the prefix of all
+/// keys; in :scene:ID is a scene's file, and beside it, by id: in :sizes its bytes, in :used when
+/// it was last asked for (us since 1970), in :expiry when it ends (ms), in :listed those of the
+/// gallery; :total is the sum of the sizes.
+namespace farol::server::store::redis {
+
+inline constexpr const char* kCommon = R"(
+local function at(name) return KEYS[1] .. ':' .. name end
+local clock = redis.call('TIME')
+local moment = clock[1] * 1000000 + clock[2]
+local now = math.floor(moment / 1000)
+local function drop(id)
+  local had = redis.call('DEL', at('scene:' .. id))
+  local size = redis.call('HGET', at('sizes'), id)
+  if size then
+    redis.call('DECRBY', at('total'), size)
+    redis.call('HDEL', at('sizes'), id)
+    redis.call('ZREM', at('used'), id)
+    redis.call('ZREM', at('expiry'), id)
+    redis.call('SREM', at('listed'), id)
+  end
+  return had
+end
+local function expire()
+  local ended = redis.call('ZRANGEBYSCORE', at('expiry'), '-inf', now, 'LIMIT', 0, 1000)
+  for _, id in ipairs(ended) do drop(id) end
+  return #ended
+end
+local function entry(id)
+  return {redis.call('SISMEMBER', at('listed'), id),
+          tonumber(redis.call('ZSCORE', at('expiry'), id) or 0),
+          tonumber(redis.call('HGET', at('sizes'), id) or 0)}
+end
+)";
+
+/// ID FILE LISTED EXPIRE_MS MOST_BYTES MOST_SCENES -> {created, listed, expires, bytes}
+inline constexpr const char* kPut = R"(
+local id, file, listed = ARGV[1], ARGV[2], ARGV[3]
+local life, bytes, scenes = tonumber(ARGV[4]), tonumber(ARGV[5]), tonumber(ARGV[6])
+expire()
+local created = 1 - redis.call('EXISTS', at('scene:' .. id))
+if created == 1 then
+  drop(id)
+  redis.call('SET', at('scene:' .. id), file)
+  redis.call('HSET', at('sizes'), id, #file)
+  redis.call('INCRBY', at('total'), #file)
+end
+if life > 0 then
+  redis.call('PEXPIREAT', at('scene:' .. id), string.format('%.0f', now + life))
+  redis.call('ZADD', at('expiry'), now + life, id)
+else
+  redis.call('PERSIST', at('scene:' .. id))
+  redis.call('ZREM', at('expiry'), id)
+end
+redis.call('ZADD', at('used'), moment, id)
+if listed == '1' then redis.call('SADD', at('listed'), id) end
+while tonumber(redis.call('GET', at('total'))) > bytes or redis.call('ZCARD', at('used')) > scenes do
+  local oldest = redis.call('ZRANGE', at('used'), 0, 1)
+  local victim = oldest[1] ~= id and oldest[1] or oldest[2]
+  if not victim then break end
+  drop(victim)
+end
+local e = entry(id)
+return {created, e[1], e[2], e[3]}
+)";
+
+/// ID PAUSE_US -> {listed, expires, bytes}, or nil. That it was asked for is written down once a
+/// pause only: every writing goes to Redis's disk.
+inline constexpr const char* kTouch = R"(
+local id = ARGV[1]
+if redis.call('EXISTS', at('scene:' .. id)) == 0 then return false end
+local used = tonumber(redis.call('ZSCORE', at('used'), id) or 0)
+if moment - used > tonumber(ARGV[2]) then redis.call('ZADD', at('used'), moment, id) end
+return entry(id)
+)";
+
+/// ID -> 1, or 0 where there was none
+inline constexpr const char* kRemove = "return drop(ARGV[1])";
+
+/// -> {{id, listed, expires, bytes}, ...}
+inline constexpr const char* kList = R"(
+local all = {}
+for _, id in ipairs(redis.call('SMEMBERS', at('listed'))) do
+  if redis.call('EXISTS', at('scene:' .. id)) == 1 then
+    local e = entry(id)
+    all[#all + 1] = {id, e[1], e[2], e[3]}
+  end
+end
+return all
+)";
+
+/// -> how many are gone; at most a thousand at once
+inline constexpr const char* kExpire = "return expire()";
+
+inline constexpr const char* kBytes = "return tonumber(redis.call('GET', at('total')) or 0)";
+
+}  // namespace farol::server::store::redis

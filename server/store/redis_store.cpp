@@ -1,0 +1,185 @@
+#include "server/store/redis_store.h"
+
+#include <algorithm>
+
+#include "server/backend.h"
+#include "server/store/redis_scripts.h"
+#include "server/store/scene_file.h"
+
+namespace farol::server::store {
+namespace {
+
+constexpr int kRetryAfterS = 5;       // a Redis that starts again is there by then
+constexpr int kRetryAfterFullS = 60;  // somebody has to make room
+// In a cluster, one node has all of it: the scripts need that.
+constexpr const char* kPrefix = "{farol}";
+constexpr int kMostRounds = 1'000;  // of expiring, each of at most a thousand scenes
+
+Time now() { return std::chrono::system_clock::now(); }
+
+Time timeOf(std::int64_t ms) { return ms == 0 ? Time::max() : Time(std::chrono::milliseconds(ms)); }
+
+std::string keyOf(const std::string& id) { return std::string(kPrefix) + ":scene:" + id; }
+
+/// {listed, expires in ms or 0, bytes}
+Entry entryOf(const std::string& id, const std::vector<RedisReply>& parts, std::size_t from = 0) {
+    return {id, parts.at(from).number == 1, timeOf(parts.at(from + 1).number),
+            static_cast<std::uint64_t>(parts.at(from + 2).number)};
+}
+
+Busy unreachable() {
+    return {"store.unreachable", "The store of uploaded scenes cannot be reached now.",
+            kRetryAfterS};
+}
+
+Busy refused(const RedisRefusal& why) {
+    if (std::string_view(why.what()).starts_with("OOM"))
+        return {"store.full", "There is no room to store the scene.", kRetryAfterFullS};
+    return {"store.failed", "The scene could not be stored or removed.", kRetryAfterFullS};
+}
+
+/// The value behind "name:" in what INFO says.
+std::string infoOf(const std::string& info, const std::string& name) {
+    const std::size_t at = info.find("\n" + name + ":");
+    if (at == std::string::npos) return "";
+    const std::size_t start = at + name.size() + 2;
+    return info.substr(start, info.find_first_of("\r\n", start) - start);
+}
+
+}  // namespace
+
+RedisStore::RedisStore(RedisAddress address, StoreLimits limits, Log log,
+                       std::chrono::microseconds usePause)
+    : limits_(limits),
+      log_(log),
+      usePause_(std::to_string(usePause.count())),
+      link_(std::move(address), std::move(log)) {
+    inspectServer();
+}
+
+/// An operator should hear at the start what would surprise later.
+void RedisStore::inspectServer() {
+    try {
+        const std::string info = link_.ask({"INFO"}).text;
+        log_("Redis " + infoOf(info, "redis_version") + ", " + std::to_string(bytes()) +
+             " bytes of scenes");
+        if (infoOf(info, "aof_enabled") != "1")
+            log_("Redis keeps no append-only file: a restart of it may lose acknowledged scenes");
+        const std::string policy = infoOf(info, "maxmemory_policy");
+        if (!policy.empty() && policy != "noeviction")
+            log_("Redis may drop scenes by itself: its maxmemory-policy is " + policy);
+    } catch (const RedisAway&) {
+        // The link has said so.
+    } catch (const RedisRefusal& why) {
+        log_(std::string("Redis does not say how it keeps its data: ") + why.what());
+    }
+}
+
+RedisReply RedisStore::run(const char* script, const std::vector<std::string>& arguments) const {
+    const std::string text = std::string(redis::kCommon) + script;
+    std::vector<std::string_view> words = {"EVAL", text, "1", kPrefix};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    return link_.ask(words);
+}
+
+RedisReply RedisStore::required(const char* script,
+                                const std::vector<std::string>& arguments) const {
+    try {
+        return run(script, arguments);
+    } catch (const RedisAway&) {
+        throw unreachable();
+    } catch (const RedisRefusal& why) {
+        log_(std::string("Redis refuses: ") + why.what());
+        throw refused(why);
+    }
+}
+
+SceneStore::Put RedisStore::put(const scene::Bundle& bundle, bool listed) {
+    Stored scene{{idOf(bundle), false, Time::max(), 0},
+                 std::make_shared<const scene::Bundle>(bundle)};
+    // What may change of a scene is beside its file, which so is the same whoever sends it.
+    const std::string file = encodeScene(scene);
+    refuseLargerThan(limits_, file.size());
+    const auto expireMs = std::chrono::milliseconds(limits_.expire).count();
+    const RedisReply reply =
+        required(redis::kPut, {scene.entry.id, file, listed ? "1" : "0", std::to_string(expireMs),
+                               std::to_string(limits_.bytes), std::to_string(limits_.scenes)});
+    scene.entry = entryOf(scene.entry.id, reply.parts, 1);
+    return {scene.entry, reply.parts.at(0).number == 1};
+}
+
+std::optional<Stored> RedisStore::get(const std::string& id) {
+    if (!isStoredId(id)) return std::nullopt;
+    Stored scene;
+    {
+        const std::lock_guard lock(mutex_);
+        if (const Stored* kept = cache_.find(id)) scene = *kept;
+    }
+    try {
+        const RedisReply reply = run(redis::kTouch, {id, usePause_});
+        if (reply.parts.empty()) return std::nullopt;
+        scene.entry = entryOf(id, reply.parts);
+        if (!scene.bundle) {
+            const RedisReply file = link_.ask({"GET", keyOf(id)});
+            if (file.isNil) return std::nullopt;  // expired in between
+            auto read = decodeScene(file.text);
+            if (!read || read->entry.id != id) {
+                log_(id + " is damaged and removed");
+                run(redis::kRemove, {id});
+                return std::nullopt;
+            }
+            scene.bundle = std::move(read->bundle);
+        }
+    } catch (const RedisAway&) {
+        // A scene is its content's digest: what is here is right, even if it was deleted elsewhere.
+        if (scene.bundle && scene.entry.expires > now()) return scene;
+        throw unreachable();
+    } catch (const RedisRefusal& why) {
+        log_(std::string("Redis refuses: ") + why.what());
+        throw refused(why);
+    }
+    const std::lock_guard lock(mutex_);
+    if (Stored* kept = cache_.find(id))
+        kept->entry = scene.entry;
+    else
+        cache_.put(id, scene, scene.bundle->bytes());
+    return scene;
+}
+
+bool RedisStore::remove(const std::string& id) {
+    return required(redis::kRemove, {id}).number == 1;
+}
+
+std::vector<Entry> RedisStore::list() {
+    std::vector<Entry> all;
+    for (const RedisReply& one : required(redis::kList, {}).parts)
+        all.push_back(entryOf(one.parts.at(0).text, one.parts, 1));
+    std::sort(all.begin(), all.end(), [](const Entry& a, const Entry& b) { return a.id < b.id; });
+    return all;
+}
+
+std::size_t RedisStore::expire() {
+    std::size_t gone = 0;
+    try {
+        for (int round = 0; round < kMostRounds; ++round) {
+            const auto now = static_cast<std::size_t>(run(redis::kExpire, {}).number);
+            gone += now;
+            if (now == 0) break;
+        }
+    } catch (const RedisAway&) {
+        // The next sweep, or another service's, does it.
+    } catch (const RedisRefusal& why) {
+        log_(std::string("Redis refuses: ") + why.what());
+    }
+    return gone;
+}
+
+std::uint64_t RedisStore::bytes() const {
+    try {
+        return static_cast<std::uint64_t>(run(redis::kBytes, {}).number);
+    } catch (const std::runtime_error&) {
+        return 0;
+    }
+}
+
+}  // namespace farol::server::store

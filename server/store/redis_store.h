@@ -1,0 +1,51 @@
+#pragma once
+
+#include <functional>
+#include <mutex>
+#include <string>
+
+#include "render/lru.h"
+#include "server/store/redis_link.h"
+#include "server/store/scene_store.h"
+
+namespace farol::server::store {
+
+/// Scenes in a Redis that many services share: what one of them has acknowledged, all of them have.
+/// Every change is one script, so that it happens as a whole and Redis's clock rules them all.
+/// Where Redis cannot be asked, put, remove and list throw Busy store.unreachable, and get gives
+/// what this service has in its memory.
+class RedisStore final : public SceneStore {
+  public:
+    using Log = std::function<void(const std::string&)>;
+
+    /// Does not throw where Redis is away: it may come later.
+    /// A use within `usePause` of the one that was written down last is not.
+    RedisStore(RedisAddress address, StoreLimits limits, Log log,
+               std::chrono::microseconds usePause = std::chrono::minutes(1));
+
+    Put put(const scene::Bundle& bundle, bool listed) override;
+    std::optional<Stored> get(const std::string& id) override;
+    bool remove(const std::string& id) override;
+    std::vector<Entry> list() override;
+    std::size_t expire() override;
+    /// 0 where Redis cannot be asked.
+    std::uint64_t bytes() const override;
+    bool isReachable() const override { return link_.isUp(); }
+
+    static constexpr std::size_t kCachedBytes = std::size_t{64} << 20U;
+
+  private:
+    RedisReply run(const char* script, const std::vector<std::string>& arguments) const;
+    RedisReply required(const char* script, const std::vector<std::string>& arguments) const;
+    void inspectServer();
+
+    const StoreLimits limits_;
+    const Log log_;
+    const std::string usePause_;
+    mutable RedisLink link_;
+    mutable std::mutex mutex_;
+    /// The scenes asked for last, with what was known of them then.
+    render::LruCache<std::string, Stored> cache_{kCachedBytes};
+};
+
+}  // namespace farol::server::store

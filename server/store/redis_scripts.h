@@ -39,14 +39,17 @@ end
 inline constexpr const char* kPut = R"(
 local id, file, listed = ARGV[1], ARGV[2], ARGV[3]
 local life, bytes, scenes = tonumber(ARGV[4]), tonumber(ARGV[5]), tonumber(ARGV[6])
-expire()
 local created = 1 - redis.call('EXISTS', at('scene:' .. id))
 if created == 1 then
-  drop(id)
+  -- Before any other change: a full Redis refuses what takes room in a script's first change only.
   redis.call('SET', at('scene:' .. id), file)
+  local stale = redis.call('HGET', at('sizes'), id) or 0
+  redis.call('INCRBY', at('total'), #file - stale)
   redis.call('HSET', at('sizes'), id, #file)
-  redis.call('INCRBY', at('total'), #file)
+  redis.call('ZREM', at('expiry'), id)
+  redis.call('SREM', at('listed'), id)
 end
+expire()
 if life > 0 then
   redis.call('PEXPIREAT', at('scene:' .. id), string.format('%.0f', now + life))
   redis.call('ZADD', at('expiry'), now + life, id)
@@ -67,12 +70,12 @@ return {created, e[1], e[2], e[3]}
 )";
 
 /// ID PAUSE_US -> {listed, expires, bytes}, or nil. That it was asked for is written down once a
-/// pause only: every writing goes to Redis's disk.
+/// pause only: every writing goes to Redis's disk; where it is full, not at all.
 inline constexpr const char* kTouch = R"(
 local id = ARGV[1]
 if redis.call('EXISTS', at('scene:' .. id)) == 0 then return false end
 local used = tonumber(redis.call('ZSCORE', at('used'), id) or 0)
-if moment - used > tonumber(ARGV[2]) then redis.call('ZADD', at('used'), moment, id) end
+if moment - used > tonumber(ARGV[2]) then redis.pcall('ZADD', at('used'), moment, id) end
 return entry(id)
 )";
 

@@ -63,8 +63,12 @@ void RedisStore::inspectServer() {
         const std::string info = link_.ask({"INFO"}).text;
         log_("Redis " + infoOf(info, "redis_version") + ", " + std::to_string(bytes()) +
              " bytes of scenes");
-        if (infoOf(info, "aof_enabled") != "1")
-            log_("Redis keeps no append-only file: a restart of it may lose acknowledged scenes");
+        const auto setting = link_.ask({"CONFIG", "GET", "appendfsync"}).parts;
+        if (infoOf(info, "aof_enabled") != "1" || setting.size() != 2 ||
+            setting[1].text != "always")
+            log_(
+                "Redis does not write each change to its disk (appendonly yes, appendfsync "
+                "always): if it is killed, acknowledged scenes may be lost");
         const std::string policy = infoOf(info, "maxmemory_policy");
         if (!policy.empty() && policy != "noeviction")
             log_("Redis may drop scenes by itself: its maxmemory-policy is " + policy);

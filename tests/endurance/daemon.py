@@ -11,12 +11,12 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
 class Daemon:
-    """The program on a free port of 127.0.0.1; ends with the `with` block."""
+    """The program on a port of 127.0.0.1 (0: a free one); ends with the `with` block."""
 
-    def __init__(self, binary, *flags, scenes=ROOT / "scenes"):
+    def __init__(self, binary, *flags, scenes=ROOT / "scenes", port=0):
         self.log = []
         self.process = subprocess.Popen(
-            [str(binary), "serve", "--port", "0", "--scenes", str(scenes), *map(str, flags)],
+            [str(binary), "serve", "--port", str(port), "--scenes", str(scenes), *map(str, flags)],
             stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         line = self.process.stdout.readline()
         if not line.startswith("listening on "):

@@ -54,10 +54,14 @@ class RedisServer {
                                           folder_,
                                           "--appendonly",
                                           "yes",
+                                          "--appendfsync",
+                                          "always",
                                           "--save",
                                           "",
                                           "--loglevel",
-                                          "warning"};
+                                          "warning",
+                                          "--logfile",
+                                          "/dev/null"};
         words.insert(words.end(), more.begin(), more.end());
         std::vector<char*> argv;
         for (std::string& word : words) argv.push_back(word.data());

@@ -1,0 +1,212 @@
+#!/usr/bin/env python3
+"""Three renderers behind a real proxy and a real Redis: cluster_test.py BINARY"""
+import collections
+import json
+import os
+import signal
+import sys
+import threading
+import time
+import unittest
+
+from cluster import Cluster, get, many, needed, send, wait_for
+
+SIZE = "width=32&height=32&aa=1"
+
+
+def scene(number):
+    return (f'<world><camera><position x="{3 + number % 7}" y="2" z="4"/><lookAt x="0" y="0" z="0"/>'
+            f'</camera><group><transform><scale x="{1 + number / 1000}" y="1" z="1"/></transform>'
+            '<models><model file="box_1_1.3d"/></models></group></world>').encode()
+
+
+class Behind(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.cluster = Cluster(sys.argv[1], 3, "--cache-bytes", 0)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.cluster.__exit__()
+
+    def placed(self, ids, angle=0):
+        """Which renderer draws each scene; every answer must be a picture."""
+        where = {}
+        for one in ids:
+            status, headers, _ = self.cluster.get(
+                f"/v1/scenes/{one}/image?{SIZE}&azimuth={angle}")
+            self.assertEqual(status, 200, one)
+            where[one] = headers["X-Farol-Renderer"]
+        return where
+
+    def test_1_a_scene_stays_on_its_renderer(self):
+        ids = self.cluster.scene_ids()
+        self.assertGreaterEqual(len(ids), 10)
+        first = self.placed(ids)
+        self.assertGreaterEqual(len(set(first.values())), 2, first)
+        for angle in (40, 80):
+            self.assertEqual(self.placed(ids, angle), first)
+        # What names no scene goes round.
+        seen = {self.cluster.post(f"/v1/render?{SIZE}", scene(i))[1]["X-Farol-Renderer"]
+                for i in range(9)}
+        self.assertEqual(len(seen), 3)
+
+    def test_2_an_upload_is_drawn_by_all(self):
+        status, headers, _ = send(self.cluster.ports[0], "POST", "/v1/scenes", scene(1),
+                                  {"Content-Type": "application/xml"})
+        self.assertEqual(status, 201)
+        pictures = {get(port, f"{headers['Location']}/image?{SIZE}")[2]
+                    for port in self.cluster.ports}
+        self.assertEqual(len(pictures), 1)
+        self.assertTrue(pictures.pop().startswith(b"\x89PNG"))
+        self.assertEqual(send(self.cluster.ports[1], "POST", "/v1/scenes", scene(1),
+                              {"Content-Type": "application/xml"})[0], 200)
+        self.assertEqual(send(self.cluster.ports[2], "DELETE", headers["Location"])[0], 204)
+        for port in self.cluster.ports:
+            self.assertEqual(get(port, f"{headers['Location']}/image?{SIZE}")[0], 404)
+
+    def test_3_a_renderer_that_is_killed_moves_its_scenes_only(self):
+        ids = self.cluster.scene_ids()
+        before = self.placed(ids)
+        victim = int(collections.Counter(before.values()).most_common(1)[0][0][len("renderer"):])
+        stopping, answers = threading.Event(), collections.Counter()
+
+        def client(start):
+            turn = start
+            while not stopping.is_set():
+                turn += 1
+                status, _, _ = self.cluster.get(
+                    f"/v1/scenes/{ids[turn % len(ids)]}/image?{SIZE}&azimuth={turn % 360}")
+                answers[status] += 1
+
+        threads = [threading.Thread(target=client, args=(i * 5,)) for i in range(4)]
+        for thread in threads:
+            thread.start()
+        wait_for("some pictures", lambda: answers[200] > 20)
+        self.cluster.kill(victim)
+        seen = answers[200]
+        wait_for("pictures without it", lambda: answers[200] > seen + 40)
+        stopping.set()
+        for thread in threads:
+            thread.join()
+        self.assertEqual(set(answers), {200}, answers)
+
+        after = self.placed(ids)
+        name = f"renderer{victim}"
+        self.assertNotIn(name, after.values())
+        moved = {one for one in ids if after[one] != before[one]}
+        self.assertEqual(moved, {one for one in ids if before[one] == name})
+
+        self.cluster.start(victim)
+        self.cluster.all_ready()
+        wait_for("its scenes are home again", lambda: self.placed(ids) == before)
+
+    def test_4_renderers_are_replaced_one_by_one_and_nothing_is_lost(self):
+        ids = self.cluster.scene_ids()
+        stopping, answers = threading.Event(), collections.Counter()
+
+        def client(start):
+            turn = start
+            while not stopping.is_set():
+                turn += 1
+                answers[self.cluster.get(
+                    f"/v1/scenes/{ids[turn % len(ids)]}/image?{SIZE}&azimuth={turn % 360}")[0]] += 1
+
+        threads = [threading.Thread(target=client, args=(i * 5,)) for i in range(3)]
+        for thread in threads:
+            thread.start()
+        for index in range(3):
+            one = self.cluster.renderers[index]
+            one.process.send_signal(signal.SIGTERM)
+            self.assertEqual(one.process.wait(60), 0)
+            self.cluster.start(index)
+            self.cluster.all_ready()
+            seen = answers[200]
+            wait_for("pictures", lambda: answers[200] > seen + 10)
+        stopping.set()
+        for thread in threads:
+            thread.join()
+        self.assertEqual(set(answers), {200}, answers)
+
+    def test_5_a_burst_waits_and_an_overload_is_told_when_to_come_again(self):
+        ids = self.cluster.scene_ids()
+        burst = many([lambda i=i: self.cluster.get(
+            f"/v1/scenes/{ids[0]}/image?{SIZE}&azimuth={i}") for i in range(12)], 12)
+        self.assertEqual([one[0] for one in burst], [200] * 12)
+        # Workers that stand still are as good as any overload, and depend on no clock.
+        workers = [pid for one in self.cluster.renderers for pid in one.workers()]
+        self.assertGreaterEqual(len(workers), 3)
+        for pid in workers:
+            os.kill(pid, signal.SIGSTOP)
+        try:
+            answers = many([lambda i=i: self.cluster.get(
+                f"/v1/scenes/{ids[i % len(ids)]}/image?{SIZE}&azimuth={i}&fov=50")
+                for i in range(24)], 24)
+        finally:
+            for pid in workers:
+                try:
+                    os.kill(pid, signal.SIGCONT)
+                except ProcessLookupError:
+                    pass
+        codes = collections.Counter()
+        for status, headers, body in answers:
+            self.assertEqual(status, 503)
+            self.assertGreaterEqual(int(headers["Retry-After"]), 1)
+            self.assertEqual(headers["Content-Type"], "application/problem+json")
+            codes[json.loads(body)["code"]] += 1
+        self.assertGreater(codes["busy.queue"], 0)
+        print(f"overload: {dict(codes)}", flush=True)
+        self.cluster.all_ready()
+        wait_for("pictures again", lambda: set(
+            self.cluster.get(f"/v1/scenes/{one}/image?{SIZE}")[0] for one in ids) == {200})
+
+    def test_6_a_redis_that_is_killed_has_all_that_was_acknowledged(self):
+        ids, acknowledged, refused = self.cluster.scene_ids(), [], collections.Counter()
+        stopping = threading.Event()
+
+        def client(start):
+            number = start
+            while not stopping.is_set():
+                number += 1
+                status, headers, body = self.cluster.post("/v1/scenes", scene(number))
+                if status == 201:
+                    acknowledged.append(headers["Location"])
+                else:
+                    refused[(status, json.loads(body)["code"],
+                             int(headers["Retry-After"] or 0) > 0)] += 1
+
+        threads = [threading.Thread(target=client, args=(1000 * i,)) for i in (1, 2, 3)]
+        for thread in threads:
+            thread.start()
+        wait_for("uploads", lambda: len(acknowledged) > 20)
+        self.cluster.redis.end(signal.SIGKILL)
+        wait_for("refused uploads", lambda: refused.total() > 5)
+        stopping.set()
+        for thread in threads:
+            thread.join()
+        self.assertEqual(set(refused), {(503, "store.unreachable", True)}, refused)
+
+        for port in self.cluster.ports:  # away, and said so; what needs no store goes on
+            status, headers, body = get(port, "/v1/scenes/~00000000000000000000000000000000")
+            self.assertEqual((status, json.loads(body)["code"]), (503, "store.unreachable"))
+            self.assertTrue(headers["Retry-After"])
+            status, _, body = get(port, "/readyz")
+            self.assertEqual((status, json.loads(body)["store"]), (200, "unreachable"))
+            self.assertEqual(get(port, f"/v1/scenes/{ids[0]}/image?{SIZE}")[0], 200)
+            self.assertIn(b"farol_store_up 0\n", get(port, "/metrics")[2])
+        self.assertEqual(self.cluster.post(f"/v1/render?{SIZE}", scene(5))[0], 200)
+
+        self.cluster.redis.start()
+        wait_for("uploads again", lambda: self.cluster.post("/v1/scenes", scene(7))[0] in (200, 201))
+        time.sleep(1)  # a renderer tries once a second
+        for place in acknowledged:
+            self.assertEqual(self.cluster.get(f"{place}/source")[0], 200, place)
+        for port in self.cluster.ports:
+            self.assertEqual(get(port, f"{acknowledged[0]}/image?{SIZE}")[0], 200)
+            self.assertIn(b"farol_store_up 1\n", get(port, "/metrics")[2])
+        print(f"{len(acknowledged)} uploads acknowledged, none lost", flush=True)
+
+
+if __name__ == "__main__":
+    needed()
+    unittest.main(argv=sys.argv[:1], verbosity=2)

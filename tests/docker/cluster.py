@@ -122,9 +122,10 @@ class Redis(Process):
 
 
 class Proxy(Process):
-    """HAProxy with docker/haproxy.cfg, whose servers are these ports instead of a name's."""
+    """HAProxy with docker/haproxy.cfg, whose servers are these ports instead of a name's, and whose
+    timeouts are longer."""
 
-    def __init__(self, ports, slots):
+    def __init__(self, ports, slots, queue_s=60):
         super().__init__()
         self.port = free_port()
         lines = []
@@ -133,8 +134,13 @@ class Proxy(Process):
                 lines += [f"    server renderer{i} 127.0.0.1:{port}"
                           for i, port in enumerate(ports)]
             else:
-                lines.append(line.replace(":8080\"", f":{self.port}\"")
-                             .replace(":8404\"", f":{free_port()}\""))
+                for shipped, here in ((':8080"', f':{self.port}"'), (':8404"', f':{free_port()}"'),
+                                      ("timeout server 15s", "timeout server 130s"),
+                                      ("timeout client 30s", "timeout client 130s"),
+                                      ("timeout check 5s", "timeout check 60s"),
+                                      ("timeout queue 3s", f"timeout queue {queue_s}s")):
+                    line = line.replace(shipped, here)
+                lines.append(line)
         self.file = tempfile.NamedTemporaryFile("w", suffix=".cfg")
         self.file.write("\n".join(lines) + "\n")
         self.file.flush()
@@ -147,10 +153,12 @@ class Proxy(Process):
 
 
 class Cluster:
-    """`count` renderers of one worker each; `flags` go to each of them."""
+    """`count` renderers of one worker each; `flags` go to each of them. They are patient: a machine
+    that does other work, too, is no fault of theirs."""
 
-    def __init__(self, binary, count, *flags):
-        self.binary, self.flags, self.slots = binary, flags, 1
+    def __init__(self, binary, count, *flags, scenes=ROOT / "scenes"):
+        self.binary, self.slots, self.scenes = binary, 1, scenes
+        self.flags = ("--wait", 60, "--deadline", 60, *flags)
         self.folder = tempfile.TemporaryDirectory()
         self.ports = [free_port() for _ in range(count)]
         self.renderers, self.proxy = [None] * count, None
@@ -167,7 +175,7 @@ class Cluster:
     def start(self, index):
         self.renderers[index] = Daemon(
             self.binary, "--workers", 1, "--spares", 0, "--store", self.redis.url,
-            "--trust-proxy", *self.flags, port=self.ports[index])
+            "--trust-proxy", *self.flags, port=self.ports[index], scenes=self.scenes)
 
     def kill(self, index):
         one = self.renderers[index]

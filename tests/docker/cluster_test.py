@@ -3,13 +3,15 @@
 import collections
 import json
 import os
+import pathlib
 import signal
 import sys
+import tempfile
 import threading
 import time
 import unittest
 
-from cluster import Cluster, get, many, needed, send, wait_for
+from cluster import Cluster, Proxy, get, many, needed, send, wait_for
 
 SIZE = "width=32&height=32&aa=1"
 
@@ -23,11 +25,15 @@ def scene(number):
 class Behind(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.cluster = Cluster(sys.argv[1], 3, "--cache-bytes", 0)
+        cls.folder = tempfile.TemporaryDirectory()
+        for number in range(12):
+            (pathlib.Path(cls.folder.name) / f"s{number}.xml").write_bytes(scene(9000 + number))
+        cls.cluster = Cluster(sys.argv[1], 3, "--cache-bytes", 0, scenes=cls.folder.name)
 
     @classmethod
     def tearDownClass(cls):
         cls.cluster.__exit__()
+        cls.folder.cleanup()
 
     def placed(self, ids, angle=0):
         """Which renderer draws each scene; every answer must be a picture."""
@@ -133,15 +139,19 @@ class Behind(unittest.TestCase):
         burst = many([lambda i=i: self.cluster.get(
             f"/v1/scenes/{ids[0]}/image?{SIZE}&azimuth={i}") for i in range(12)], 12)
         self.assertEqual([one[0] for one in burst], [200] * 12)
-        # Workers that stand still are as good as any overload, and depend on no clock.
+        # Workers that stand still are as good as any overload, and depend on no clock; a proxy with
+        # the shipped wait.
+        impatient = Proxy(self.cluster.ports, 1, queue_s=3)
+        self.addCleanup(impatient.end, signal.SIGTERM)
+        wait_for("it knows a renderer", lambda: get(impatient.port, "/readyz")[0] == 200)
         workers = [pid for one in self.cluster.renderers for pid in one.workers()]
         self.assertGreaterEqual(len(workers), 3)
         for pid in workers:
             os.kill(pid, signal.SIGSTOP)
         try:
-            answers = many([lambda i=i: self.cluster.get(
-                f"/v1/scenes/{ids[i % len(ids)]}/image?{SIZE}&azimuth={i}&fov=50")
-                for i in range(24)], 24)
+            answers = many([lambda i=i: get(
+                impatient.port, f"/v1/scenes/{ids[i % len(ids)]}/image?{SIZE}&azimuth={i}&fov=50",
+                timeout=200) for i in range(24)], 24)
         finally:
             for pid in workers:
                 try:
@@ -209,4 +219,4 @@ class Behind(unittest.TestCase):
 
 if __name__ == "__main__":
     needed()
-    unittest.main(argv=sys.argv[:1], verbosity=2)
+    unittest.main(argv=sys.argv[:1] + sys.argv[2:], verbosity=2)

@@ -192,11 +192,12 @@ class Image(unittest.TestCase):
 
     def test_a_hog_fails_alone_under_a_small_memory_limit(self):
         xml = {"Content-Type": "application/xml"}
-        for name, env in (("the worker's own cap", {"FAROL_WORKER_MEMORY": "300"}),
-                          ("the container's limit", {"FAROL_WORKER_MEMORY": "0"})):
+        for name, limit, cap in (("the worker's own cap", "640m", "300"),
+                                 ("the container's limit", "320m", "0")):
             with self.subTest(name), Container(
-                    "--memory", "640m", "--memory-swap", "640m",
-                    env={**env, "FAROL_WORKERS": "1", "FAROL_DEADLINE": "60"}) as service:
+                    "--memory", limit, "--memory-swap", limit,
+                    env={"FAROL_WORKER_MEMORY": cap, "FAROL_WORKERS": "1", "FAROL_SPARES": "0",
+                         "FAROL_DEADLINE": "60"}) as service:
                 pid = service.state()["Pid"]
                 status, headers, body = send(service.port, "POST", "/v1/render", HOG, xml,
                                              timeout=120)

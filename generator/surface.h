@@ -21,6 +21,7 @@ struct Surface {
     glm::dvec4 discs{0.5};
     bool turnFromX = false;
     bool discUv = false;  ///< instead u = uv.x + uv.y * q.x, v = uv.z + uv.w * q.z
+    bool operator==(const Surface&) const = default;
 };
 
 }  // namespace farol::generator

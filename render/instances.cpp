@@ -73,8 +73,8 @@ class Collector {
                 known.mesh->mesh.indices.empty() || glm::dmat3(worldFromGroup) == glm::dmat3(0.0);
             list_.anyOpen |= known.open;
             boxes_.push_back(nothing ? Box{} : bounds);
-            list_.instances.push_back(
-                {&model, known.mesh, worldFromGroup, known.open, lightSet, known.texture});
+            list_.instances.push_back({&model, known.mesh, worldFromGroup, known.open, lightSet,
+                                       known.texture, known.surface});
         }
         for (const scene::Group& child : group.groups) visit(child, worldFromGroup, lightSet);
     }
@@ -84,16 +84,25 @@ class Collector {
         std::shared_ptr<const MeshData> mesh;
         bool open;
         int texture;
+        int surface;
     };
 
     const Known& know(const scene::Model& model) {
         const auto found = known_.find(&model);
         if (found != known_.end()) return found->second;
-        Known known{meshes_.get(model, assets_), generator::isOpen(model), textureOf(model)};
+        Known known{meshes_.get(model, assets_), generator::isOpen(model), textureOf(model),
+                    surfaceOf(model)};
         if (!known.mesh->findings.empty() && told_.insert(known.mesh->id).second)
             list_.findings.insert(list_.findings.end(), known.mesh->findings.begin(),
                                   known.mesh->findings.end());
         return known_.emplace(&model, std::move(known)).first->second;
+    }
+
+    int surfaceOf(const scene::Model& model) {
+        const std::optional<generator::Surface> surface = generator::surfaceOf(model);
+        if (!surface) return -1;
+        list_.surfaces.push_back(*surface);
+        return static_cast<int>(list_.surfaces.size()) - 1;
     }
 
     int textureOf(const scene::Model& model) {
@@ -167,6 +176,7 @@ std::size_t bytesOf(const Placed& placed) {
     std::size_t bytes = 0;
     std::set<std::uint64_t> counted;
     const auto add = [&](const InstanceList& list) {
+        bytes += list.surfaces.size() * sizeof(generator::Surface);
         for (const Instance& one : list.instances)
             bytes += kOne + (counted.insert(one.mesh->id).second ? bytesOf(*one.mesh) : 0);
     };

@@ -3,6 +3,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "generator/surface.h"
 #include "render/bounds_tree.h"
 #include "render/mesh_library.h"
 #include "render/texture_ref.h"
@@ -18,6 +19,7 @@ struct Instance {
     bool open;     ///< its divisions are the renderer's to choose
     int lightSet;  ///< index into InstanceList::lightSets
     int texture;   ///< index into InstanceList::textures, or -1
+    int surface;   ///< index into InstanceList::surfaces, or -1
 };
 
 /// A light at its place: position and direction in world space (camera lights: eye space).
@@ -36,6 +38,7 @@ struct InstanceList {
     std::vector<Instance> instances;  ///< in document order
     BoundsTree tree;                  ///< of the instances, world space; those of no extent are out
     std::vector<TextureRef> textures;
+    std::vector<generator::Surface> surfaces;  ///< exact ones, of models that are wholly open
     std::vector<PlacedLight> lights;
     std::vector<std::vector<int>> lightSets;  ///< indices into lights; set 0: the scene's own
     std::vector<PlacedCurve> curves;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <list>
 #include <map>
@@ -22,12 +23,13 @@ class LruCache {
         return &entries_.front().value;
     }
 
-    /// Precondition: the key is not here. Drops the least recent until the bound is kept.
-    Value& put(const Key& key, Value value, std::size_t cost) {
+    /// Precondition: the key is not here. Drops the least recent until the bound is kept, but none
+    /// of the `keep` most recent.
+    Value& put(const Key& key, Value value, std::size_t cost, std::size_t keep = 1) {
         entries_.push_front({key, std::move(value), cost});
         byKey_.emplace(key, entries_.begin());
         cost_ += cost;
-        while (cost_ > most_ && entries_.size() > 1) {
+        while (cost_ > most_ && entries_.size() > std::max<std::size_t>(1, keep)) {
             cost_ -= entries_.back().cost;
             byKey_.erase(entries_.back().key);
             entries_.pop_back();

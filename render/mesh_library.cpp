@@ -59,10 +59,19 @@ std::shared_ptr<const MeshData> MeshLibrary::get(const MeshData& coarse, const s
     // All numbers stand on ladders.
     const Key key{
         {}, coarse.id, fineness.error, fineness.fullTurn, fineness.straightSide, fineness.balanced};
-    if (const auto* known = meshes_.find(key)) return *known;
+    if (const auto* kept = meshes_.find(key)) return *kept;
+    // Many wishes end in the same divisions: one mesh, so that its models can share a draw call.
     const std::vector<std::string> words = generator::refine(model, assets, fineness);
-    return keep(key, generator::generate(words, assets, model.uv), {},
-                fineness.balanced ? words : std::vector<std::string>());
+    Key made{{}, coarse.id};
+    for (const std::string& word : words) made.source += word + ' ';
+    made.balanced = fineness.balanced;
+    const auto* known = meshes_.find(made);
+    const std::shared_ptr<const MeshData> mesh =
+        known ? *known
+              : keep(made, generator::generate(words, assets, model.uv), {},
+                     fineness.balanced ? words : std::vector<std::string>());
+    // Counted under each of its names, so that the bound is kept.
+    return meshes_.put(key, mesh, bytesOf(*mesh));
 }
 
 }  // namespace farol::render

@@ -36,9 +36,29 @@ std::vector<Span> spans(int source, int target) {
     return all;
 }
 
+/// Of four texels each, all weights alike: what the general case comes to, without its divisions.
+void halveEven(const Fixed& from, Fixed& to) {
+    const std::size_t stride = static_cast<std::size_t>(from.width) * 4;
+    std::uint16_t* out = to.values.data();
+    for (std::size_t y = 0; y < static_cast<std::size_t>(to.height); ++y) {
+        const std::uint16_t* upper = &from.values[2 * y * stride];
+        const std::uint16_t* lower = upper + stride;
+        for (std::size_t x = 0; x < stride; x += 8)
+            for (std::size_t c = 0; c < 4; ++c) {
+                const unsigned sum =
+                    2U + upper[x + c] + upper[x + 4 + c] + lower[x + c] + lower[x + 4 + c];
+                *out++ = static_cast<std::uint16_t>(sum >> 2);
+            }
+    }
+}
+
 Fixed halve(const Fixed& from) {
     Fixed to{std::max(1, from.width / 2), std::max(1, from.height / 2), {}};
     to.values.resize(static_cast<std::size_t>(to.width) * static_cast<std::size_t>(to.height) * 4);
+    if (from.width % 2 == 0 && from.height % 2 == 0) {
+        halveEven(from, to);
+        return to;
+    }
     const std::vector<Span> columns = spans(from.width, to.width);
     const std::vector<Span> rows = spans(from.height, to.height);
     const std::uint64_t total =

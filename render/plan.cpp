@@ -66,6 +66,7 @@ class Planner {
         const glm::ivec2 size = pictureSize(scene_, options_);
         plan_.width = size.x;
         plan_.height = size.y;
+        plan_.instancing = skipping_.calls;
         aspect_ = static_cast<double>(size.x) / size.y;
         const InstanceList& list = placed_.scene;
         chooseStyle(!list.lights.empty());
@@ -123,6 +124,10 @@ class Planner {
         plan_.stats.instances += static_cast<int>(list.instances.size());
         const scene::Material undressed = scene::defaultMaterial(scene.dialect);
         textureOf_.assign(list.textures.size(), -1);
+        const auto outside =
+            std::count(found.sides.begin(), found.sides.end(), Frustum::Side::outside);
+        plan_.items.reserve(plan_.items.size() + found.sides.size() -
+                            static_cast<std::size_t>(outside));
         for (std::size_t i = 0; i < list.instances.size(); ++i) {
             // Whether they are seen stands apart: what is not seen is not touched.
             if (found.sides[i] != Frustum::Side::outside || !skipping_.outside)
@@ -239,7 +244,10 @@ class Planner {
         item.mesh = instance.mesh;
         if (instance.open) {
             const std::optional<SeenSurface> seen =
-                wantsSurface() ? seenSurface(model, viewFromObject) : std::nullopt;
+                instance.surface >= 0 && wantsSurface()
+                    ? seenSurface(list.surfaces[static_cast<std::size_t>(instance.surface)],
+                                  viewFromObject)
+                    : std::nullopt;
             item.mesh = meshes_.get(*instance.mesh, model, assets_,
                                     fineness(instance.mesh->bounds, viewFromObject, seen,
                                              model.texture.has_value(), sight_));

@@ -47,6 +47,7 @@ struct LineVertex {
 };
 
 struct FramePlan {
+    bool instancing = true;  ///< batches are drawn by one call each (render/batches.h)
     int width = 512, height = 512;
     int samples = 1;
     scene::Shading shading = scene::Shading::phong;
@@ -77,6 +78,7 @@ struct Skipping {
     bool outside = true;         ///< what is beyond the view's borders
     bool betweenSamples = true;  ///< what is too small to be met by a sample of any pixel
     bool lights = true;          ///< lights that add nothing to a model
+    bool calls = true;           ///< draw calls of models that differ in their place alone
 };
 
 /// Plans one frame of a resolved scene that was placed at options.timeS. Throws Error as

@@ -70,11 +70,13 @@ Image chessBoard(const scene::Chess& chess) {
     return image;
 }
 
-Image decodeTexture(const TextureRef& ref, const scene::Assets& assets) {
-    if (ref.chess) return chessBoard(*ref.chess);
-    const auto bytes = assets.read(ref.path);
+UndecodedTexture openTexture(const TextureRef& ref, const scene::Assets& assets) {
+    if (ref.chess) return {0, [&ref] { return chessBoard(*ref.chess); }};
+    auto bytes = assets.read(ref.path);
     if (!bytes) throw Error("asset.missing", "there is no file '" + ref.path + "'", ref.where);
-    return decodeImage(*bytes, ref.path, ref.where);
+    const ImageSize size = imageSize(*bytes, ref.path, ref.where);
+    return {std::int64_t{size.width} * size.height,
+            [&ref, bytes = std::move(*bytes)] { return decodeImage(bytes, ref.path, ref.where); }};
 }
 
 /// The debug overlay. No times of the clock: the same request must give the same bytes.
@@ -150,14 +152,14 @@ Picture Renderer::draw(const Job& job, Image& image) {
 
     FramePlan frame =
         plan(prepared.scene, state_->placed(kept, job), job.options, *prepared.assets,
-             state_->meshes, job.drawUnseen ? Skipping{false, false, false} : Skipping{});
+             state_->meshes, job.drawUnseen ? Skipping{false, false, false, false} : Skipping{});
     picture.camera = frame.camera;
     takeFindings(picture.diagnostics, frame.findings, job.strict);
     picture.times.geometryMs = watch.lap();
 
     gl::Painter::Timings timings;
     state_->painter.draw(
-        frame, [&](const TextureRef& ref) { return decodeTexture(ref, *prepared.assets); }, image,
+        frame, [&](const TextureRef& ref) { return openTexture(ref, *prepared.assets); }, image,
         frame.stats.drawCalls, timings);
     const double total = watch.lap();
     picture.times.drawMs = timings.drawMs;

@@ -85,14 +85,12 @@ double shadingDivisions(scene::Shading shading, double radiusPx) {
 
 }  // namespace
 
-std::optional<SeenSurface> seenSurface(const scene::Model& model,
+std::optional<SeenSurface> seenSurface(const generator::Surface& surface,
                                        const glm::dmat4& viewFromObject) {
-    const std::optional<generator::Surface> surface = generator::surfaceOf(model);
-    if (!surface) return std::nullopt;
     glm::dmat3 viewFromUnit(viewFromObject);
     double largest = 0.0;
     for (int i = 0; i < 3; ++i) {
-        viewFromUnit[i] *= surface->lengths[i];
+        viewFromUnit[i] *= surface.lengths[i];
         largest = std::max(largest, glm::length(viewFromUnit[i]));
     }
     // Of 24 bits, ten are left for the ray in the worst case.
@@ -100,9 +98,9 @@ std::optional<SeenSurface> seenSurface(const scene::Model& model,
     if (!(std::abs(glm::determinant(viewFromUnit)) > kFlattest * largest * largest * largest))
         return std::nullopt;
     const glm::dvec3 center(viewFromObject[3]);
-    const SeenSurface seen{*surface, -(glm::inverse(viewFromUnit) * center)};
+    const SeenSurface seen{surface, -(glm::inverse(viewFromUnit) * center)};
     // A ring is flat: no ray is followed.
-    if (surface->kind != generator::Surface::Kind::ring && unitDistance(seen) < kNearest)
+    if (surface.kind != generator::Surface::Kind::ring && unitDistance(seen) < kNearest)
         return std::nullopt;
     return seen;
 }

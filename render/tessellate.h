@@ -25,10 +25,11 @@ struct SeenSurface {
     glm::dvec3 eye;
 };
 
-/// The exact surface of a model that stands at viewFromObject, if all of its divisions are open and
-/// single precision can follow a pixel's ray to it: not where it is flattened, and not where the
-/// viewer stands so close to it that its size hides the distance.
-std::optional<SeenSurface> seenSurface(const scene::Model& model, const glm::dmat4& viewFromObject);
+/// The exact surface of a model that stands at viewFromObject, if single precision can follow a
+/// pixel's ray to it: not where it is flattened, and not where the viewer stands so close to it
+/// that its size hides the distance.
+std::optional<SeenSurface> seenSurface(const generator::Surface& surface,
+                                       const glm::dmat4& viewFromObject);
 
 /// True where the pixels of a mesh with so many divisions of a full turn have to follow their rays
 /// to the surface: it costs them up to half as much again, which pays where the outline alone would

@@ -37,7 +37,21 @@ void attribute(const Api& api, GLuint location, GLint size, std::size_t stride, 
                             offset(at));
 }
 
-GpuMesh upload(const Api& api, const generator::Mesh& mesh, bool flat) {
+/// Read by the shader of instances alone.
+void addPlaces(const Api& api, const Buffer& places) {
+    api.BindBuffer(GL_ARRAY_BUFFER, places.name());
+    for (GLuint i = 0; i < 8; ++i) {
+        const GLuint location = 4 + i;
+        const std::size_t at =
+            i < 4   ? offsetof(PlaceVertex, viewFromObject) + i * sizeof(glm::vec4)
+            : i < 7 ? offsetof(PlaceVertex, normalFromObject) + (i - 4) * sizeof(glm::vec3)
+                    : offsetof(PlaceVertex, surfaceEye);
+        attribute(api, location, i < 4 ? 4 : 3, sizeof(PlaceVertex), at);
+        api.VertexAttribDivisor(location, 1);
+    }
+}
+
+GpuMesh upload(const Api& api, const generator::Mesh& mesh, bool flat, const Buffer& places) {
     GpuMesh gpu;
     gpu.array = VertexArray(api);
     gpu.vertices = Buffer(api);
@@ -75,6 +89,7 @@ GpuMesh upload(const Api& api, const generator::Mesh& mesh, bool flat) {
     attribute(api, 0, 3, stride, offsetof(Vertex, position));
     attribute(api, 1, 3, stride, offsetof(Vertex, normal));
     attribute(api, 2, 2, stride, offsetof(Vertex, uv));
+    addPlaces(api, places);
     return gpu;
 }
 
@@ -83,7 +98,7 @@ GpuMesh upload(const Api& api, const generator::Mesh& mesh, bool flat) {
 const GpuMesh& MeshStore::get(const MeshData& data, bool flat) {
     const Key key{data.id, flat};
     if (const GpuMesh* known = meshes_.find(key)) return *known;
-    GpuMesh mesh = upload(api_, data.mesh, flat);
+    GpuMesh mesh = upload(api_, data.mesh, flat, places_);
     const std::size_t bytes = mesh.bytes;
     return meshes_.put(key, std::move(mesh), bytes);
 }

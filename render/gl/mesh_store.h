@@ -18,10 +18,19 @@ struct GpuMesh {
     std::size_t bytes = 0;
 };
 
+/// Where an instance stands: attributes 4 to 11 of the model's shader, one for all of its vertices.
+struct PlaceVertex {
+    glm::mat4 viewFromObject;
+    glm::mat3 normalFromObject;
+    glm::vec3 surfaceEye;
+};
+
 /// Meshes by MeshData::id, kept within a bound of bytes, least recently used first out.
 class MeshStore {
   public:
-    MeshStore(const Api& api, std::size_t maxBytes) : api_(api), meshes_(maxBytes) {}
+    /// `places`: of instances (PlaceVertex), which every mesh's array reads beside its vertices.
+    MeshStore(const Api& api, const Buffer& places, std::size_t maxBytes)
+        : api_(api), places_(places), meshes_(maxBytes) {}
     /// Valid until the next call.
     const GpuMesh& get(const MeshData& data, bool flat);
 
@@ -32,6 +41,7 @@ class MeshStore {
         auto operator<=>(const Key&) const = default;
     };
     const Api& api_;
+    const Buffer& places_;
     LruCache<Key, GpuMesh> meshes_;
 };
 

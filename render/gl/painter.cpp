@@ -8,6 +8,7 @@
 #include <new>
 #include <optional>
 
+#include "render/batches.h"
 #include "render/camera.h"
 #include "render/gl/mesh_store.h"
 #include "render/gl/program.h"
@@ -58,7 +59,6 @@ void setSurface(const Api& api, const DrawItem& item, const LinkedProgram& progr
     const glm::vec2 form(surface.form);
     const glm::vec4 uv(surface.uv);
     api.Uniform3fv(program.unitFromObject, 1, glm::value_ptr(item.unitFromObject));
-    api.Uniform3fv(program.unitEye, 1, glm::value_ptr(item.surfaceEye));
     api.Uniform3fv(program.surfaceLengths, 1, glm::value_ptr(lengths));
     api.Uniform2f(program.surfaceForm, form.x, form.y);
     api.Uniform4fv(program.surfaceUv, 1, glm::value_ptr(uv));
@@ -69,25 +69,32 @@ void setSurface(const Api& api, const DrawItem& item, const LinkedProgram& progr
     api.Uniform1f(program.seenFrom, item.inside ? -1.0F : 1.0F);
 }
 
+bool hasBackdrop(const FramePlan& plan) {
+    return plan.skyboxTexture >= 0 || plan.backgroundTexture >= 0;
+}
+
 }  // namespace
 
 struct Painter::State {
     std::unique_ptr<Context> context = createOsMesaContext();
     const Api& api = context->api();
     ProgramCache programs{api};
-    MeshStore meshes{api, kMeshBytes};
+    Buffer placeBuffer{api};
+    MeshStore meshes{api, placeBuffer, kMeshBytes};
     TextureStore textures{api, kTextureBytes};
     std::optional<Target> target;
     VertexArray lineArray{api}, emptyArray{api};
     Buffer lineBuffer{api};
     std::vector<Buffer> lightBuffers;
     std::vector<GLuint> textureNames;
+    std::vector<Batch> batches;
     GLint mostSamples = 1;
 
     State() {
         api.GetIntegerv(GL_MAX_SAMPLES, &mostSamples);
         mostSamples = std::min(mostSamples, kGlSamples);
         api.ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+        api.Enable(GL_DEPTH_TEST);
         api.DepthFunc(GL_GREATER);
         api.Enable(GL_CULL_FACE);
         api.CullFace(GL_BACK);
@@ -95,12 +102,15 @@ struct Painter::State {
         api.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
     }
 
-    void prepare(const FramePlan& plan, const Decode& decode);
+    void prepareTextures(const FramePlan& plan, const OpenTexture& open);
+    void prepare(const FramePlan& plan, const OpenTexture& open);
     void drawPass(const FramePlan& plan, const glm::dvec2& offset, int& drawCalls);
     void drawBackdrop(const FramePlan& plan, int& drawCalls);
     void drawItems(const FramePlan& plan, const glm::mat4& clip, int& drawCalls);
     void drawLines(const std::vector<LineVertex>& lines, const glm::mat4& clip, int& drawCalls);
-    ProgramKey keyOf(const FramePlan& plan, const DrawItem& item) const;
+    void drawOne(const DrawItem& item, const GpuMesh& mesh, const LinkedProgram& program);
+    void preparePlaces(const FramePlan& plan);
+    ProgramKey keyOf(const FramePlan& plan, const DrawItem& item, bool instanced) const;
     void setMaterial(const FramePlan& plan, const DrawItem& item, const LinkedProgram& program);
 };
 
@@ -108,13 +118,23 @@ Painter::Painter() : state_(std::make_unique<State>()) {}
 Painter::~Painter() = default;
 const std::string& Painter::description() const { return state_->context->description(); }
 
-void Painter::State::prepare(const FramePlan& plan, const Decode& decode) {
+void Painter::State::prepareTextures(const FramePlan& plan, const OpenTexture& open) {
     textureNames.clear();
+    std::vector<const TextureRef*> missing;
     for (const TextureRef& ref : plan.textures) {
-        const auto load = [&] { return decode(ref); };
-        textureNames.push_back(ref.cube ? textures.getCube(ref.key, load)
-                                        : textures.get(ref.key, ref.filter, load));
+        textureNames.push_back(textures.find(ref));
+        if (textureNames.back() == 0) missing.push_back(&ref);
     }
+    loadTextures(missing, open, [&](const TextureRef& ref, const TextureLevels& levels) {
+        const auto index = static_cast<std::size_t>(&ref - plan.textures.data());
+        textureNames[index] = textures.put(ref, levels, plan.textures.size());
+    });
+}
+
+void Painter::State::prepare(const FramePlan& plan, const OpenTexture& open) {
+    prepareTextures(plan, open);
+    batches = batchesOf(plan);
+    preparePlaces(plan);
     while (lightBuffers.size() < plan.lightSets.size()) lightBuffers.emplace_back(api);
     for (std::size_t i = 0; i < plan.lightSets.size(); ++i) {
         if (plan.lightSets[i].empty()) continue;
@@ -125,7 +145,24 @@ void Painter::State::prepare(const FramePlan& plan, const Decode& decode) {
     }
 }
 
-ProgramKey Painter::State::keyOf(const FramePlan& plan, const DrawItem& item) const {
+/// The places of all instanced batches, one behind the other.
+void Painter::State::preparePlaces(const FramePlan& plan) {
+    std::vector<PlaceVertex> places;
+    for (const Batch& batch : batches) {
+        if (!batch.instanced) continue;
+        for (std::size_t i = batch.first; i < batch.first + batch.count; ++i) {
+            const DrawItem& item = plan.items[i];
+            places.push_back({item.viewFromObject, item.normalFromObject, item.surfaceEye});
+        }
+    }
+    if (places.empty()) return;
+    api.BindBuffer(GL_ARRAY_BUFFER, placeBuffer.name());
+    api.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(places.size() * sizeof(PlaceVertex)),
+                   places.data(), GL_STREAM_DRAW);
+}
+
+ProgramKey Painter::State::keyOf(const FramePlan& plan, const DrawItem& item,
+                                 bool instanced) const {
     std::string defines;
     const auto define = [&](const char* text) { defines += std::string("#define ") + text + '\n'; };
     switch (plan.layer) {
@@ -147,6 +184,7 @@ ProgramKey Painter::State::keyOf(const FramePlan& plan, const DrawItem& item) co
     const bool plain =
         plan.layer == Layer::id || (plan.layer == Layer::color && !plan.lit && item.texture < 0);
     if (item.surface && !plain) defineSurface(*item.surface, defines);
+    if (instanced) define("INSTANCED");
     if (plan.layer != Layer::color) return {"model", defines};
     if (item.texture >= 0) define("TEXTURED");
     if (item.texture >= 0 && item.mapping == scene::Mapping::sphere) define("MAPPING_SPHERE");
@@ -195,6 +233,20 @@ void Painter::State::setMaterial(const FramePlan& plan, const DrawItem& item,
     }
 }
 
+/// A model whose batch is set up.
+void Painter::State::drawOne(const DrawItem& item, const GpuMesh& mesh,
+                             const LinkedProgram& program) {
+    api.UniformMatrix4fv(program.viewFromObject, 1, GL_FALSE, glm::value_ptr(item.viewFromObject));
+    if (program.normalFromObject >= 0)
+        api.UniformMatrix3fv(program.normalFromObject, 1, GL_FALSE,
+                             glm::value_ptr(item.normalFromObject));
+    if (item.surface) api.Uniform3fv(program.unitEye, 1, glm::value_ptr(item.surfaceEye));
+    if (mesh.indexed)
+        api.DrawElements(GL_TRIANGLES, mesh.count, GL_UNSIGNED_INT, nullptr);
+    else
+        api.DrawArrays(GL_TRIANGLES, 0, mesh.count);
+}
+
 void Painter::State::drawItems(const FramePlan& plan, const glm::mat4& clip, int& drawCalls) {
     const bool wireframe = plan.layer == Layer::color && plan.shading == scene::Shading::wireframe;
     const bool points = plan.layer == Layer::color && plan.shading == scene::Shading::points;
@@ -202,8 +254,10 @@ void Painter::State::drawItems(const FramePlan& plan, const glm::mat4& clip, int
     if (wireframe) api.PolygonMode(GL_FRONT_AND_BACK, GL_LINE);
     if (points) api.PolygonMode(GL_FRONT_AND_BACK, GL_POINT);
     const LinkedProgram* current = nullptr;
-    for (const DrawItem& item : plan.items) {
-        const LinkedProgram& program = programs.get(keyOf(plan, item));
+    GLuint base = 0;  // of the batch's places
+    for (const Batch& batch : batches) {
+        const DrawItem& first = plan.items[batch.first];
+        const LinkedProgram& program = programs.get(keyOf(plan, first, batch.instanced));
         if (&program != current) {
             current = &program;
             api.UseProgram(program.program.name());
@@ -214,26 +268,29 @@ void Painter::State::drawItems(const FramePlan& plan, const glm::mat4& clip, int
             if (program.nearest >= 0)
                 api.Uniform1f(program.nearest, static_cast<float>(plan.camera.near));
         }
-        api.UniformMatrix4fv(program.viewFromObject, 1, GL_FALSE,
-                             glm::value_ptr(item.viewFromObject));
-        if (program.normalFromObject >= 0)
-            api.UniformMatrix3fv(program.normalFromObject, 1, GL_FALSE,
-                                 glm::value_ptr(item.normalFromObject));
-        if (item.surface) setSurface(api, item, program);
-        setMaterial(plan, item, program);
-        const auto set = static_cast<std::size_t>(item.lightSet);
+        if (first.surface) setSurface(api, first, program);
+        setMaterial(plan, first, program);
+        const auto set = static_cast<std::size_t>(first.lightSet);
         if (plan.lit && !plan.lightSets[set].empty())
             api.BindBufferBase(GL_UNIFORM_BUFFER, kLightsBinding, lightBuffers[set].name());
-        if (item.texture >= 0)
-            api.BindTexture(GL_TEXTURE_2D, textureNames[static_cast<std::size_t>(item.texture)]);
-        api.FrontFace(item.mirrored ? GL_CW : GL_CCW);
-        const GpuMesh& mesh = meshes.get(*item.mesh, flat);
+        if (first.texture >= 0)
+            api.BindTexture(GL_TEXTURE_2D, textureNames[static_cast<std::size_t>(first.texture)]);
+        api.FrontFace(first.mirrored ? GL_CW : GL_CCW);
+        const GpuMesh& mesh = meshes.get(*first.mesh, flat);
         api.BindVertexArray(mesh.array.name());
-        if (mesh.indexed)
-            api.DrawElements(GL_TRIANGLES, mesh.count, GL_UNSIGNED_INT, nullptr);
-        else
-            api.DrawArrays(GL_TRIANGLES, 0, mesh.count);
-        ++drawCalls;
+        if (batch.instanced) {
+            const auto count = static_cast<GLsizei>(batch.count);
+            if (mesh.indexed)
+                api.DrawElementsInstancedBaseInstance(GL_TRIANGLES, mesh.count, GL_UNSIGNED_INT,
+                                                      nullptr, count, base);
+            else
+                api.DrawArraysInstancedBaseInstance(GL_TRIANGLES, 0, mesh.count, count, base);
+            base += static_cast<GLuint>(batch.count);
+            ++drawCalls;
+            continue;
+        }
+        for (std::size_t i = batch.first; i < batch.first + batch.count; ++i, ++drawCalls)
+            drawOne(plan.items[i], mesh, program);
     }
     api.FrontFace(GL_CCW);
     if (wireframe || points) api.PolygonMode(GL_FRONT_AND_BACK, GL_FILL);
@@ -258,16 +315,13 @@ void Painter::State::drawLines(const std::vector<LineVertex>& lines, const glm::
     ++drawCalls;
 }
 
+/// Where no model is: the depth is still that of the clear, which nothing that is drawn has. The
+/// skybox hides the background's picture.
 void Painter::State::drawBackdrop(const FramePlan& plan, int& drawCalls) {
+    if (!hasBackdrop(plan)) return;
     api.BindVertexArray(emptyArray.name());
-    api.Disable(GL_DEPTH_TEST);
-    if (plan.backgroundTexture >= 0) {
-        api.UseProgram(programs.get({"backdrop", ""}).program.name());
-        api.BindTexture(GL_TEXTURE_2D,
-                        textureNames[static_cast<std::size_t>(plan.backgroundTexture)]);
-        api.DrawArrays(GL_TRIANGLES, 0, 3);
-        ++drawCalls;
-    }
+    api.DepthFunc(GL_EQUAL);
+    api.DepthMask(GL_FALSE);
     if (plan.skyboxTexture >= 0) {
         const LinkedProgram& program = programs.get({"backdrop", "#define SKYBOX\n"});
         api.UseProgram(program.program.name());
@@ -278,33 +332,38 @@ void Painter::State::drawBackdrop(const FramePlan& plan, int& drawCalls) {
                       static_cast<float>(up));
         api.BindTexture(GL_TEXTURE_CUBE_MAP,
                         textureNames[static_cast<std::size_t>(plan.skyboxTexture)]);
-        api.DrawArrays(GL_TRIANGLES, 0, 3);
-        ++drawCalls;
+    } else {
+        api.UseProgram(programs.get({"backdrop", ""}).program.name());
+        api.BindTexture(GL_TEXTURE_2D,
+                        textureNames[static_cast<std::size_t>(plan.backgroundTexture)]);
     }
-    api.Enable(GL_DEPTH_TEST);
+    api.DrawArrays(GL_TRIANGLES, 0, 3);
+    ++drawCalls;
+    api.DepthMask(GL_TRUE);
+    api.DepthFunc(GL_GREATER);
 }
 
 void Painter::State::drawPass(const FramePlan& plan, const glm::dvec2& offset, int& drawCalls) {
     const glm::dvec2 window(plan.width, plan.height);
     const glm::mat4 clip(clipFromView(plan.camera, window.x / window.y, 2.0 * offset / window));
     target->bind();
-    const glm::vec4 color = plan.background;
-    api.ClearBufferfv(GL_COLOR, 0, glm::value_ptr(color));
+    // Before a backdrop every sample is drawn.
+    if (!hasBackdrop(plan)) api.ClearBufferfv(GL_COLOR, 0, glm::value_ptr(plan.background));
     constexpr float kFarthest = 0.0F;  // reversed depth
     api.ClearBufferfv(GL_DEPTH, 0, &kFarthest);
-    drawBackdrop(plan, drawCalls);
     drawLines(plan.lines, clip, drawCalls);
     drawItems(plan, clip, drawCalls);
+    drawBackdrop(plan, drawCalls);
     api.Disable(GL_DEPTH_TEST);
     drawLines(plan.overlays, clip, drawCalls);
     api.Enable(GL_DEPTH_TEST);
 }
 
-void Painter::draw(const FramePlan& plan, const Decode& decode, Image& image, int& drawCalls,
+void Painter::draw(const FramePlan& plan, const OpenTexture& open, Image& image, int& drawCalls,
                    Timings& timings) {
     State& s = *state_;
     s.context->makeCurrent();
-    s.prepare(plan, decode);
+    s.prepare(plan, open);
     auto begin = std::chrono::steady_clock::now();
     const Sampling sampled = chooseSampling(plan.samples, s.mostSamples);
     if (!s.target || !s.target->fits(plan.width, plan.height, sampled.samples)) {

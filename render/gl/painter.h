@@ -1,11 +1,11 @@
 #pragma once
 
-#include <functional>
 #include <memory>
 
 #include "render/gl/context.h"
 #include "render/image.h"
 #include "render/plan.h"
+#include "render/texture_levels.h"
 
 namespace farol::render::gl {
 
@@ -18,15 +18,13 @@ class Painter {
     Painter(const Painter&) = delete;
     Painter& operator=(const Painter&) = delete;
 
-    /// Called for a texture that is not in GL memory yet. May throw Error image.*.
-    using Decode = std::function<Image(const TextureRef&)>;
-
     struct Timings {
         double drawMs = 0, readbackMs = 0;
     };
     /// The picture of a plan, straight alpha, into `image`, whose memory is used again where it is
-    /// as large; counts draw calls into `drawCalls`.
-    void draw(const FramePlan& plan, const Decode& decode, Image& image, int& drawCalls,
+    /// as large; counts draw calls into `drawCalls`. `open` is
+    /// called for textures that are not in GL memory yet.
+    void draw(const FramePlan& plan, const OpenTexture& open, Image& image, int& drawCalls,
               Timings& timings);
 
     const std::string& description() const;

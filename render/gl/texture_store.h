@@ -1,26 +1,27 @@
 #pragma once
 
-#include <functional>
 #include <string>
 
 #include "render/gl/objects.h"
-#include "render/image.h"
 #include "render/lru.h"
-#include "scene/scene.h"
+#include "render/texture_levels.h"
 
 namespace farol::render::gl {
 
 /// Textures by content and filter, kept within a bound of bytes, least recently used first out.
-/// The first row of an Image is the top of the picture; texture coordinates start bottom left.
+/// 2D textures repeat in u and v, cube maps are clamped and seamless.
 class TextureStore {
   public:
     TextureStore(const Api& api, std::size_t maxBytes);
-    /// The texture's name; `decode` is called when it is not here yet. Repeats in u and v.
-    GLuint get(const std::string& key, scene::Filter filter, const std::function<Image()>& decode);
-    /// The six faces of a cube map, cut from a 4x3 cross (see skybox.h); clamped and seamless.
-    GLuint getCube(const std::string& key, const std::function<Image()>& decode);
+    /// The texture's name, or 0 where it is not here.
+    GLuint find(const TextureRef& ref);
+    /// Uploads one that is not here; its name. The `keep` used last stay, whatever they take.
+    GLuint put(const TextureRef& ref, const TextureLevels& levels, std::size_t keep);
 
   private:
+    void uploadLevels(const Texture& texture, scene::Filter filter, const TextureLevels& levels);
+    void uploadFaces(const Texture& texture, const TextureLevels& faces);
+
     const Api& api_;
     float maxAnisotropy_ = 1.0F;
     LruCache<std::string, Texture> textures_;

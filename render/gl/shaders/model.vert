@@ -3,17 +3,30 @@ layout(location = 1) in vec3 normalObject;
 layout(location = 2) in vec2 uvIn;
 layout(location = 3) in vec3 centerObject;  // FLAT: the middle of the face
 
+#ifdef INSTANCED
+layout(location = 4) in mat4 viewFromObject;
+#ifdef SURFACE
+layout(location = 8) in mat3 normalIn;
+layout(location = 11) in vec3 unitEye;
+flat out mat3 normalFromObject;
+#else
+layout(location = 8) in mat3 normalFromObject;
+#endif
+#else
 uniform mat4 viewFromObject;
 #ifdef SURFACE
-uniform vec3 unitFromObject;  // scale
 uniform vec3 unitEye;
+#else
+uniform mat3 normalFromObject;
+#endif
+#endif
+#ifdef SURFACE
+uniform vec3 unitFromObject;  // scale
 out vec3 unitPosition;
 out vec3 unitRay;
 #if defined(SURFACE_FRUSTUM) || defined(SURFACE_RING)
 flat out float cap;
 #endif
-#else
-uniform mat3 normalFromObject;
 #endif
 uniform mat4 clipFromView;
 
@@ -80,6 +93,9 @@ void main() {
 #ifdef SURFACE
     unitPosition = positionObject * unitFromObject;
     unitRay = unitPosition - unitEye;
+#ifdef INSTANCED
+    normalFromObject = normalIn;
+#endif
 #if defined(SURFACE_FRUSTUM) || defined(SURFACE_RING)
     cap = normalObject.x == 0.0 && normalObject.z == 0.0 ? normalObject.y : 0.0;
 #endif

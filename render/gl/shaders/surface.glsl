@@ -7,7 +7,12 @@ in vec3 unitRay;       // from the eye to there
 #if defined(SURFACE_FRUSTUM) || defined(SURFACE_RING)
 flat in float cap;  // of the flat parts: their normal's y; 0: the side
 #endif
-uniform mat3 normalFromObject;  // from unit gradients
+// From unit gradients.
+#ifdef INSTANCED
+flat in mat3 normalFromObject;
+#else
+uniform mat3 normalFromObject;
+#endif
 uniform float seenFrom;         // 1: from outside, -1: the insides
 uniform vec2 surfaceForm;
 

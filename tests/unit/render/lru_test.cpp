@@ -27,3 +27,16 @@ TEST_CASE("a value over the bound stays until the next comes") {
     CHECK(cache.find(1) == nullptr);
     CHECK(cache.size() == 1);
 }
+
+TEST_CASE("those used last stay where the caller holds them, whatever they cost") {
+    LruCache<int, int> cache(10);
+    for (int i = 0; i < 3; ++i) cache.put(i, i, 6);
+    CHECK(cache.size() == 1);
+    REQUIRE(cache.find(2) != nullptr);
+    cache.put(3, 3, 6, 3);
+    cache.put(4, 4, 6, 3);
+    CHECK(cache.size() == 3);
+    cache.put(5, 5, 6, 3);
+    CHECK(cache.size() == 3);
+    CHECK(cache.find(2) == nullptr);
+}

@@ -53,3 +53,22 @@ TEST_CASE("the last mipmap is the mean of the picture") {
     // 8 fractional bits a level and one final rounding: within one.
     CHECK(buildMipmaps(image).back().pixels[0] == Approx(sum / (37 * 23)).margin(1.0));
 }
+
+TEST_CASE("halves of even sizes are means of four, rounded once in 1/256") {
+    Image image{64, 32, {}};
+    for (int i = 0; i < 64 * 32 * 4; ++i)
+        image.pixels.push_back(static_cast<std::uint8_t>((i * 7919) % 251));
+    const std::vector<Image> levels = buildMipmaps(image);
+    REQUIRE(levels[0].width == 32);
+    const auto at = [&](int x, int y, int c) {
+        return image.pixels[static_cast<std::size_t>((y * 64 + x) * 4 + c)] * 256U;
+    };
+    for (int y = 0; y < 16; ++y)
+        for (int x = 0; x < 32; ++x)
+            for (int c = 0; c < 4; ++c) {
+                const unsigned sum = at(2 * x, 2 * y, c) + at(2 * x + 1, 2 * y, c) +
+                                     at(2 * x, 2 * y + 1, c) + at(2 * x + 1, 2 * y + 1, c);
+                const unsigned want = ((sum + 2) / 4 + 128) / 256;
+                REQUIRE(levels[0].pixels[static_cast<std::size_t>((y * 32 + x) * 4 + c)] == want);
+            }
+}

@@ -75,7 +75,10 @@ Image draw(render::gl::Painter& painter, const FramePlan& plan) {
     render::gl::Painter::Timings timings;
     Image image;
     painter.draw(
-        plan, [](const render::TextureRef&) -> Image { throw std::logic_error("no texture"); },
+        plan,
+        [](const render::TextureRef&) -> render::UndecodedTexture {
+            throw std::logic_error("no texture");
+        },
         image, calls, timings);
     return image;
 }

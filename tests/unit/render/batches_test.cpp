@@ -1,0 +1,110 @@
+#include "render/batches.h"
+
+#include <catch2/catch.hpp>
+#include <random>
+
+#include "render/renderer.h"
+
+// Models that differ in their place alone are drawn by one call: the same pixels as one by one.
+using namespace farol;
+using render::Batch;
+using render::FramePlan;
+
+namespace {
+
+FramePlan planOf(const std::vector<int>& meshes) {
+    FramePlan plan;
+    for (const int id : meshes) {
+        auto mesh = std::make_shared<render::MeshData>();
+        mesh->id = static_cast<std::uint64_t>(id);
+        plan.items.emplace_back().mesh = std::move(mesh);
+    }
+    return plan;
+}
+
+std::vector<std::size_t> countsOf(const FramePlan& plan) {
+    std::vector<std::size_t> counts;
+    std::size_t next = 0;
+    for (const Batch& batch : render::batchesOf(plan)) {
+        CHECK(batch.first == next);
+        CHECK(batch.instanced == (plan.instancing && batch.count >= render::kLeastInstances));
+        next += batch.count;
+        counts.push_back(batch.count);
+    }
+    CHECK(next == plan.items.size());
+    return counts;
+}
+
+std::string number(double value) { return std::to_string(value); }
+
+/// Models of one kind after the other, many of them in one place or flat against each other.
+std::string crowdOf(const std::vector<std::string>& models, int each) {
+    std::mt19937 random(5);
+    std::uniform_int_distribution<int> step(-6, 6);
+    std::string text =
+        "<world><window width=\"150\" height=\"110\"/><camera><position x=\"1\" y=\"2\" "
+        "z=\"12\"/><lookAt x=\"0\" y=\"0\" z=\"0\"/></camera><lights><light type=\"point\" "
+        "posx=\"3\" posy=\"9\" posz=\"7\"/><light type=\"directional\" dirx=\"1\" diry=\"1\" "
+        "dirz=\"1\"/></lights>";
+    for (const std::string& model : models)
+        for (int i = 0; i < each; ++i)
+            text += "<group><transform><translate x=\"" + number(0.5 * step(random)) + "\" y=\"" +
+                    number(0.5 * step(random)) + "\" z=\"" + number(0.5 * step(random)) +
+                    "\"/><rotate angle=\"" + number(30 * step(random)) +
+                    "\" x=\"0\" y=\"1\" z=\"0\"/><scale x=\"" + (i >= 20 ? "-1" : "1") +
+                    "\" y=\"1\" z=\"" + (i % 3 == 2 ? "0.5" : "1") +
+                    "\"/></transform><models><model " + model + "</models></group>";
+    return text + "</world>";
+}
+
+}  // namespace
+
+TEST_CASE("neighbours that differ in their place alone make a batch, in the plan's order") {
+    CHECK(countsOf(planOf({})).empty());
+    CHECK(countsOf(planOf({1, 1, 2, 1, 1, 1})) == std::vector<std::size_t>{2, 1, 3});
+    FramePlan plan = planOf(std::vector<int>(20, 4));
+    CHECK(countsOf(plan) == std::vector<std::size_t>{20});
+    plan.instancing = false;
+    CHECK(countsOf(plan) == std::vector<std::size_t>{20});
+    plan.items[9].viewFromObject[3].x = 7.0F;  // its place
+    CHECK(countsOf(plan) == std::vector<std::size_t>{20});
+    plan.items[9].diffuse.x = 0.5F;
+    CHECK(countsOf(plan) == std::vector<std::size_t>{9, 1, 10});
+    plan.layer = render::Layer::id;
+    CHECK(countsOf(plan) == std::vector<std::size_t>(20, 1));
+}
+
+TEST_CASE("what is drawn by one call gives the same pixels as model by model") {
+    const std::string red =
+        "<color><diffuse R=\"200\" G=\"30\" B=\"20\"/>"
+        "<specular R=\"200\" G=\"200\" B=\"200\"/><shininess "
+        "value=\"40\"/></color></model>";
+    const std::string blue = "<color><diffuse R=\"20\" G=\"30\" B=\"200\"/></color></model>";
+    const std::string board = "<texture file=\"chess:4x4\"/></model>";
+    const std::string xml =
+        crowdOf({"file=\"box_0.8_1.3d\">" + red, "file=\"box_0.8_1.3d\">" + blue,
+                 "file=\"sphere_0.5.3d\">" + red, "file=\"sphere_0.5_8_8.3d\">" + blue,
+                 "file=\"cone_0.5_1.3d\">" + blue, "file=\"torus_0.5_0.2.3d\">" + red,
+                 "file=\"sphere_0.4.3d\">" + board, "file=\"box_0.8_1.3d\">" + board},
+                30);
+    render::Renderer renderer;
+    using scene::Shading;
+    for (const Shading shading : {Shading::phong, Shading::gouraud, Shading::flat, Shading::solid,
+                                  Shading::chess, Shading::wireframe, Shading::points})
+        for (const render::Layer layer : {render::Layer::color, render::Layer::normal,
+                                          render::Layer::depth, render::Layer::id}) {
+            if (layer != render::Layer::color && shading != Shading::phong) continue;
+            render::Job job;
+            job.xml = xml;
+            job.options.shading = shading;
+            job.options.layer = layer;
+            render::Image batched, single;
+            const render::Stats few = renderer.draw(job, batched).stats;
+            job.drawUnseen = true;
+            const render::Stats many = renderer.draw(job, single).stats;
+            CAPTURE(static_cast<int>(shading), static_cast<int>(layer));
+            CHECK(batched.pixels == single.pixels);
+            CHECK(many.drawCalls > 200);
+            if (layer != render::Layer::id) CHECK(few.drawCalls < many.drawCalls / 2);
+        }
+}

@@ -1,0 +1,104 @@
+#include "render/texture_levels.h"
+
+#include <catch2/catch.hpp>
+#include <thread>
+
+using namespace farol;
+using render::Image;
+using render::TextureLevels;
+using render::TextureRef;
+using render::UndecodedTexture;
+
+namespace {
+
+std::vector<TextureRef> refsOf(int count) {
+    std::vector<TextureRef> refs(static_cast<std::size_t>(count));
+    for (int i = 0; i < count; ++i) refs[static_cast<std::size_t>(i)].key = std::to_string(i);
+    return refs;
+}
+
+std::vector<const TextureRef*> pointers(const std::vector<TextureRef>& refs) {
+    std::vector<const TextureRef*> all;
+    for (const TextureRef& ref : refs) all.push_back(&ref);
+    return all;
+}
+
+/// One column, its rows 0 1 2 ... from the top.
+Image column(int height) {
+    Image image{1, height, {}};
+    for (int y = 0; y < height; ++y)
+        for (int c = 0; c < 4; ++c) image.pixels.push_back(static_cast<std::uint8_t>(y));
+    return image;
+}
+
+}  // namespace
+
+TEST_CASE("pictures come in their order however long each takes, bottom row first") {
+    const std::vector<TextureRef> refs = refsOf(30);
+    const auto open = [](const TextureRef& ref) {
+        const int index = std::stoi(ref.key);
+        return UndecodedTexture{
+            1 << (index % 26), [index] {
+                std::this_thread::sleep_for(std::chrono::milliseconds(index % 4 == 0 ? 5 : 0));
+                return column(index + 2);
+            }};
+    };
+    int next = 0;
+    const std::thread::id caller = std::this_thread::get_id();
+    render::loadTextures(pointers(refs), open,
+                         [&](const TextureRef& ref, const TextureLevels& got) {
+                             CHECK(ref.key == std::to_string(next));
+                             CHECK(std::this_thread::get_id() == caller);
+                             REQUIRE(got.images.size() >= 2);
+                             const Image& largest = got.images[0];
+                             REQUIRE(largest.height == next + 2);
+                             CHECK(largest.pixels.front() == next + 1);
+                             CHECK(largest.pixels.back() == 0);
+                             CHECK(got.images.back().height == 1);
+                             ++next;
+                         });
+    CHECK(next == 30);
+}
+
+TEST_CASE("without smaller levels where the filter reads none") {
+    std::vector<TextureRef> refs = refsOf(1);
+    for (const auto& [filter, count] : {std::pair{scene::Filter::nearest, 1},
+                                        {scene::Filter::linear, 1},
+                                        {scene::Filter::mipmap, 4},
+                                        {scene::Filter::anisotropic, 4}}) {
+        refs[0].filter = filter;
+        std::size_t images = 0;
+        render::loadTextures(
+            pointers(refs),
+            [](const TextureRef&) {
+                return UndecodedTexture{8, [] { return column(8); }};
+            },
+            [&](const TextureRef&, const TextureLevels& got) { images = got.images.size(); });
+        CHECK(images == static_cast<std::size_t>(count));
+    }
+}
+
+TEST_CASE("of several faults the first in order is told, whether of a head or of pixels") {
+    const std::vector<TextureRef> refs = refsOf(6);
+    for (const int head : {1, 3, 5})
+        for (const int pixels : {0, 2, 4}) {
+            const auto open = [&](const TextureRef& ref) {
+                const int index = std::stoi(ref.key);
+                if (index == head) throw Error("image.unreadable", "head");
+                return UndecodedTexture{1, [index, pixels]() -> Image {
+                                            if (index == pixels)
+                                                throw Error("image.unreadable", "pixels");
+                                            return column(2);
+                                        }};
+            };
+            std::string told;
+            try {
+                render::loadTextures(pointers(refs), open,
+                                     [](const TextureRef&, const TextureLevels&) {});
+            } catch (const Error& error) {
+                told = error.what();
+            }
+            CAPTURE(head, pixels);
+            CHECK(told.find(head < pixels ? "head" : "pixels") != std::string::npos);
+        }
+}

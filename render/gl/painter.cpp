@@ -87,7 +87,7 @@ struct Painter::State {
     Buffer lineBuffer{api};
     std::vector<Buffer> lightBuffers;
     std::vector<GLuint> textureNames;
-    std::vector<Batch> batches;
+    Batches batches;
     GLint mostSamples = 1;
 
     State() {
@@ -148,10 +148,10 @@ void Painter::State::prepare(const FramePlan& plan, const OpenTexture& open) {
 /// The places of all instanced batches, one behind the other.
 void Painter::State::preparePlaces(const FramePlan& plan) {
     std::vector<PlaceVertex> places;
-    for (const Batch& batch : batches) {
+    for (const Batch& batch : batches.batches) {
         if (!batch.instanced) continue;
         for (std::size_t i = batch.first; i < batch.first + batch.count; ++i) {
-            const DrawItem& item = plan.items[i];
+            const DrawItem& item = plan.items[batches.order[i]];
             places.push_back({item.viewFromObject, item.normalFromObject, item.surfaceEye});
         }
     }
@@ -255,8 +255,8 @@ void Painter::State::drawItems(const FramePlan& plan, const glm::mat4& clip, int
     if (points) api.PolygonMode(GL_FRONT_AND_BACK, GL_POINT);
     const LinkedProgram* current = nullptr;
     GLuint base = 0;  // of the batch's places
-    for (const Batch& batch : batches) {
-        const DrawItem& first = plan.items[batch.first];
+    for (const Batch& batch : batches.batches) {
+        const DrawItem& first = plan.items[batches.order[batch.first]];
         const LinkedProgram& program = programs.get(keyOf(plan, first, batch.instanced));
         if (&program != current) {
             current = &program;
@@ -290,7 +290,7 @@ void Painter::State::drawItems(const FramePlan& plan, const glm::mat4& clip, int
             continue;
         }
         for (std::size_t i = batch.first; i < batch.first + batch.count; ++i, ++drawCalls)
-            drawOne(plan.items[i], mesh, program);
+            drawOne(plan.items[batches.order[i]], mesh, program);
     }
     api.FrontFace(GL_CCW);
     if (wireframe || points) api.PolygonMode(GL_FRONT_AND_BACK, GL_FILL);

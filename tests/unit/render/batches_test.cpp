@@ -1,6 +1,8 @@
 #include "render/batches.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <numeric>
 #include <random>
 
 #include "render/renderer.h"
@@ -12,26 +14,42 @@ using render::FramePlan;
 
 namespace {
 
+/// A unit cube at a place, eye space.
+render::DrawItem cubeAt(int mesh, const glm::vec3& place) {
+    auto data = std::make_shared<render::MeshData>();
+    data->id = static_cast<std::uint64_t>(mesh);
+    data->bounds.add(glm::dvec3(-0.5));
+    data->bounds.add(glm::dvec3(0.5));
+    render::DrawItem item;
+    item.mesh = std::move(data);
+    item.viewFromObject[3] = glm::vec4(place, 1.0F);
+    return item;
+}
+
+/// Cubes of the meshes named, side by side.
 FramePlan planOf(const std::vector<int>& meshes) {
     FramePlan plan;
-    for (const int id : meshes) {
-        auto mesh = std::make_shared<render::MeshData>();
-        mesh->id = static_cast<std::uint64_t>(id);
-        plan.items.emplace_back().mesh = std::move(mesh);
-    }
+    plan.camera.near = 1.0;
+    plan.camera.far = 100.0;
+    plan.camera.fovDeg = 60.0;
+    for (std::size_t i = 0; i < meshes.size(); ++i)
+        plan.items.push_back(cubeAt(meshes[i], {2.0F * static_cast<float>(i) - 20.0F, 0.0F, -40}));
     return plan;
 }
 
+/// Checks that every item is drawn once.
 std::vector<std::size_t> countsOf(const FramePlan& plan) {
+    const render::Batches all = render::batchesOf(plan);
     std::vector<std::size_t> counts;
-    std::size_t next = 0;
-    for (const Batch& batch : render::batchesOf(plan)) {
-        CHECK(batch.first == next);
-        CHECK(batch.instanced == (plan.instancing && batch.count >= render::kLeastInstances));
-        next += batch.count;
+    for (const Batch& batch : all.batches) {
+        CHECK(batch.first == std::accumulate(counts.begin(), counts.end(), std::size_t{0}));
+        CHECK(batch.instanced == (batch.count >= render::kLeastInstances));
         counts.push_back(batch.count);
     }
-    CHECK(next == plan.items.size());
+    std::vector<std::uint32_t> order = all.order;
+    std::sort(order.begin(), order.end());
+    REQUIRE(order.size() == plan.items.size());
+    for (std::uint32_t i = 0; i < order.size(); ++i) CHECK(order[i] == i);
     return counts;
 }
 
@@ -59,19 +77,32 @@ std::string crowdOf(const std::vector<std::string>& models, int each) {
 
 }  // namespace
 
-TEST_CASE("neighbours that differ in their place alone make a batch, in the plan's order") {
+TEST_CASE("models that differ in their place alone make a batch") {
+    using Counts = std::vector<std::size_t>;
     CHECK(countsOf(planOf({})).empty());
-    CHECK(countsOf(planOf({1, 1, 2, 1, 1, 1})) == std::vector<std::size_t>{2, 1, 3});
     FramePlan plan = planOf(std::vector<int>(20, 4));
-    CHECK(countsOf(plan) == std::vector<std::size_t>{20});
-    plan.instancing = false;
-    CHECK(countsOf(plan) == std::vector<std::size_t>{20});
-    plan.items[9].viewFromObject[3].x = 7.0F;  // its place
-    CHECK(countsOf(plan) == std::vector<std::size_t>{20});
+    CHECK(countsOf(plan) == Counts{20});
     plan.items[9].diffuse.x = 0.5F;
-    CHECK(countsOf(plan) == std::vector<std::size_t>{9, 1, 10});
+    CHECK(countsOf(plan) == Counts{19, 1});
+    plan.instancing = false;
+    CHECK(countsOf(plan) == Counts(20, 1));
+    plan.instancing = true;
     plan.layer = render::Layer::id;
-    CHECK(countsOf(plan) == std::vector<std::size_t>(20, 1));
+    CHECK(countsOf(plan) == Counts(20, 1));
+    CHECK(countsOf(planOf({1, 2, 1, 2, 1, 2, 1, 2, 1, 2})) == Counts{5, 5});
+}
+
+TEST_CASE("nothing moves past a model that it may meet") {
+    using Counts = std::vector<std::size_t>;
+    const std::vector<int> meshes{1, 1, 1, 1, 2, 1, 1, 1, 1};
+    CHECK(countsOf(planOf(meshes)) == Counts{8, 1});
+    FramePlan plan = planOf(meshes);
+    plan.items[4] = cubeAt(2, {-10.0F, 0.4F, -40.0F});  // where item 5 is
+    CHECK(countsOf(plan) == Counts{4, 1, 4});           // and those behind join the nearest
+    plan.items[4] = cubeAt(2, {-10.0F, 0.0F, -30.0F});  // before it, farther than both are deep
+    CHECK(countsOf(plan) == Counts{8, 1});
+    plan.items[4] = cubeAt(2, {0.0F, 0.0F, -1.2F});  // reaches the viewer
+    CHECK(countsOf(plan) == Counts{4, 1, 4});
 }
 
 TEST_CASE("what is drawn by one call gives the same pixels as model by model") {

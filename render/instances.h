@@ -3,7 +3,6 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "generator/surface.h"
 #include "render/bounds_tree.h"
 #include "render/mesh_library.h"
 #include "render/texture_ref.h"

@@ -102,7 +102,10 @@ class Plot:
                 for a, b in points:
                     out.append(f'<circle cx="{sx(a):.1f}" cy="{sy(b):.1f}" r="3.2" fill="{color}"/>')
             for (a, b), label in zip(points, style.get("labels", [])):
-                out.append(f'<text x="{sx(a) + 5:.1f}" y="{sy(b) - 5:.1f}" class="small">'
+                side = 5 if sx(a) < right - 90 else -5
+                anchor = "start" if side > 0 else "end"
+                out.append(f'<text x="{sx(a) + side:.1f}" y="{sy(b) - 5:.1f}" class="small" '
+                           f'text-anchor="{anchor}">'
                            f'{escape(label)}</text>')
             y = TOP + 10 + 18 * i
             out.append(f'<rect x="{right + 14}" y="{y - 9}" width="12" height="10" fill="{color}"/>'

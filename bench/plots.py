@@ -103,7 +103,7 @@ def encoders(data):
         for row in rows:
             kinds[row["encoder"].split()[0]].append(row)
         for kind, own in kinds.items():
-            own.sort(key=lambda row: row["ms"])
+            own.sort(key=lambda row: row["bytes"])
             plot.add(kind, [(row["ms"], row["bytes"]) for row in own], line=kind != "libpng",
                      labels=[row["encoder"] for row in own])
         yield f"encoders-{name}", plot

@@ -13,7 +13,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT))
-from bench import peers, scenes  # noqa: E402
+from bench import front, peers, scenes  # noqa: E402
 from bench.plots import draw  # noqa: E402
 
 QUALITY_SCENES = ["teapots", "house", "solar-system", "carousel", "forest", "primitives",
@@ -165,6 +165,11 @@ def main():
     parser.add_argument("--binaries", default=str(ROOT / "build" / "release"))
     parser.add_argument("--plots", action="store_true", help="only draws what is in bench/results")
     given = parser.parse_args()
+    if given.suites == ["front"]:
+        read = [json.loads((ROOT / f"bench/results/{name}.json").read_text())
+                for name in ("quality", "scale")]
+        front.write(*read, ROOT / "render" / "quality_front.inc")
+        return 0
     names = given.suites or list(SUITES)
     for name in names:
         if name not in SUITES:

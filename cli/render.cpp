@@ -82,7 +82,10 @@ int run(const Flags& flags, Report& report) {
     report.set("height", picture.height);
     report.set("stats", stats);
     report.set("timesMs", times);
+    if (picture.quality) report.set("quality", server::toJson(*picture.quality));
     if (flags.stats && !report.json()) printStats(stats, times);
+    if (flags.stats && !report.json() && picture.quality)
+        std::cerr << "quality=" << server::toJson(*picture.quality) << std::endl;
     return kDone;
 }
 

@@ -103,7 +103,7 @@ constexpr std::array<std::pair<const char*, scene::Viewer>, 2> kViewers{
 using O = PictureOptions;
 using S = const std::string;
 
-const std::array<OptionSpec, 28> kSpecs{{
+const std::array<OptionSpec, 29> kSpecs{{
     {"width", "1..4096 px", "picture width; default the scene's window, else 512",
      [](O& o, S& v) { o.width = parseInt("width", v, 1, kMaxSide, "1..4096 px"); }},
     {"height", "1..4096 px", "picture height; default the scene's window, else 512",
@@ -143,6 +143,9 @@ const std::array<OptionSpec, 28> kSpecs{{
      [](O& o, S& v) { o.filter = parseName("filter", v, kFilters); }},
     {"error", "0.01..64 px", "tessellation on demand: greatest error; default 0.25",
      [](O& o, S& v) { o.errorPx = parseNumber("error", v, 0.01, 64, "0.01..64 px"); }},
+    {"budget_ms", "0.1..60000 ms",
+     "chooses aa and error, where they are not given, by the expected time of a frame",
+     [](O& o, S& v) { o.budgetMs = parseNumber("budget_ms", v, 0.1, 60000, "0.1..60000 ms"); }},
     {"axes", "0 or 1", "draws the axes: X red, Y green, Z blue",
      [](O& o, S& v) { o.axes = parseFlag("axes", v); }},
     {"curves", "0 or 1", "draws the curves that groups move along",

@@ -18,6 +18,8 @@ enum class Layer { color, depth, normal, id };
 inline constexpr int kMaxSide = 4096;                   ///< px
 inline constexpr std::int64_t kMaxPixels = 16'777'216;  ///< of one picture
 
+inline constexpr double kDefaultErrorPx = 0.25;
+
 /// The picture options of the command line and of the service; what is unset is the scene's own
 /// choice, else the default named in optionSpecs().
 struct PictureOptions {
@@ -29,7 +31,9 @@ struct PictureOptions {
     std::optional<scene::Shading> shading;
     std::optional<int> samples;  ///< 1, 2, 4, 8, 16; default 4
     std::optional<scene::Filter> filter;
-    double errorPx = 0.25;  ///< tessellation on demand
+    std::optional<double> errorPx;  ///< tessellation on demand; default kDefaultErrorPx
+    /// 0.1..60000: what neither request nor scene says of samples and error (quality.h)
+    std::optional<double> budgetMs;
     std::optional<bool> axes;
     bool curves = false, focus = false, debug = false;
     std::optional<std::string>

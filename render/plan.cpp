@@ -73,7 +73,7 @@ class Planner {
         plan_.camera = chooseCamera(scene_, options_, list.bounds, aspect_);
         view_ = {viewRotation(plan_.camera), plan_.camera.eye};
         plan_.worldFromView = glm::mat3(glm::transpose(view_.rotation));
-        sight_ = {plan_.camera, plan_.width, plan_.height, options_.errorPx, plan_.shading};
+        sight_ = {plan_.camera, plan_.width, plan_.height, errorPx_, plan_.shading};
         clip_ = clipFromView(plan_.camera, aspect_, glm::dvec2(0.0));
         samples_ = samplePattern(plan_.samples);
         addInstances(scene_, list, view_, {});
@@ -88,7 +88,7 @@ class Planner {
   private:
     void chooseStyle(bool lights) {
         plan_.samples = options_.samples.value_or(
-            scene_.settings.samples.value_or(defaultSamples(options_.errorPx)));
+            scene_.settings.samples.value_or(defaultSamples(errorPx_)));
         plan_.shading = options_.shading          ? *options_.shading
                         : scene_.settings.shading ? *scene_.settings.shading
                                                   : automaticShading(scene_, lights);
@@ -181,7 +181,7 @@ class Planner {
     }
 
     /// How far a mesh may stand out of its shape, px: only those made on demand do.
-    double standOutPx(bool open) const { return open ? options_.errorPx : 0.0; }
+    double standOutPx(bool open) const { return open ? errorPx_ : 0.0; }
 
     /// True if the whole box is beyond one side of the view, with a margin for rounding and for
     /// points and lines, which reach past their geometry.
@@ -418,6 +418,7 @@ class Planner {
     MeshLibrary& meshes_;
     const Skipping& skipping_;
     FramePlan plan_;
+    double errorPx_ = options_.errorPx.value_or(kDefaultErrorPx);
     SamplePattern samples_;
     ReachedLights reached_{plan_.lightSets};
     std::vector<int> textureOf_;  ///< of an InstanceList, in plan_.textures

@@ -15,6 +15,7 @@
 #include "render/overlay.h"
 #include "render/plan.h"
 #include "render/prepare.h"
+#include "render/quality.h"
 #include "scene/animation.h"
 #include "scene/loop.h"
 
@@ -150,9 +151,11 @@ Picture Renderer::draw(const Job& job, Image& image) {
     picture.diagnostics = prepared.diagnostics;
     picture.times.parseMs = watch.lap();
 
-    FramePlan frame =
-        plan(prepared.scene, state_->placed(kept, job), job.options, *prepared.assets,
-             state_->meshes, job.drawUnseen ? Skipping{false, false, false, false} : Skipping{});
+    const Placed& placed = state_->placed(kept, job);
+    PictureOptions options = job.options;
+    picture.quality = resolveBudget(options, prepared.scene, placed);
+    FramePlan frame = plan(prepared.scene, placed, options, *prepared.assets, state_->meshes,
+                           job.drawUnseen ? Skipping{false, false, false, false} : Skipping{});
     picture.camera = frame.camera;
     takeFindings(picture.diagnostics, frame.findings, job.strict);
     picture.times.geometryMs = watch.lap();

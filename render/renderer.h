@@ -48,6 +48,15 @@ struct StageTimes {
     double parseMs = 0, geometryMs = 0, drawMs = 0, readbackMs = 0, encodeMs = 0;
 };
 
+/// What a budget chose (PictureOptions::budgetMs), and the time that it is expected to take.
+struct Quality {
+    int samples = 4;
+    double errorPx = kDefaultErrorPx;
+    double expectedMs = 0.0;
+    bool within =
+        false;  ///< false: even the cheapest that may be chosen costs more than the budget
+};
+
 struct Picture {
     std::string bytes;        ///< encoded
     std::string contentType;  ///< "image/png"
@@ -56,6 +65,7 @@ struct Picture {
     scene::Camera camera;     ///< the one used, for clients that orbit from it
     Stats stats;
     StageTimes times;
+    std::optional<Quality> quality;  ///< where PictureOptions::budgetMs asked for it
 };
 
 /// A model's element in the document.

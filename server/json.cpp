@@ -1,5 +1,6 @@
 #include "server/json.h"
 
+#include <cmath>
 #include <ctime>
 
 #include "server/http/uri.h"
@@ -29,6 +30,13 @@ json toJson(const scene::Camera& camera) {
     return {{"eye", toJson(camera.eye)}, {"target", toJson(camera.target)},
             {"up", toJson(camera.up)},   {"fov", camera.fovDeg},
             {"near", camera.near},       {"far", camera.far}};
+}
+
+json toJson(const render::Quality& quality) {
+    return {{"aa", quality.samples},
+            {"error", quality.errorPx},
+            {"expectedMs", std::round(10.0 * quality.expectedMs) / 10.0},
+            {"within", quality.within}};
 }
 
 json toJson(const render::Stats& stats) {

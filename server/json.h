@@ -10,6 +10,7 @@ namespace farol::server {
 
 nlohmann::json toJson(const scene::Camera& camera);
 nlohmann::json toJson(const render::Stats& stats);
+nlohmann::json toJson(const render::Quality& quality);
 /// Title, size, camera, counts, diagnostics.
 nlohmann::json toJson(const render::SceneReport& report);
 /// {"models": the elements with their places, "copies": the model of each number of a layer=id

@@ -52,6 +52,7 @@ http::Response pictureResponse(Done<render::Picture> done) {
     response.body = std::move(picture.bytes);
     response.set("Server-Timing", timing(picture.times, done.queueMs));
     response.set("X-Farol-Stats", asciiJson(toJson(picture.stats)));
+    if (picture.quality) response.set("X-Farol-Quality", asciiJson(toJson(*picture.quality)));
     response.set("X-Farol-Camera", asciiJson(toJson(picture.camera)));
     if (const Diagnostics found = notable(picture.diagnostics); !found.empty())
         response.set("X-Farol-Diagnostics", diagnosticsHeader(toJson(found)));

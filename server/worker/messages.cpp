@@ -52,11 +52,11 @@ constexpr Layer lastOf(Layer) { return Layer::id; }
 template <typename Archive, Is<PictureOptions> T>
 void visit(Archive& archive, T& value) {
     auto& [width, height, eye, target, up, azimuthDeg, elevationDeg, distance, fovDeg, near, far,
-           timeS, shading, samples, filter, errorPx, axes, curves, focus, debug, background, entity,
-           format, quality, layer, viewer, specular, scale] = value;
+           timeS, shading, samples, filter, errorPx, budgetMs, axes, curves, focus, debug,
+           background, entity, format, quality, layer, viewer, specular, scale] = value;
     archive(width, height, eye, target, up, azimuthDeg, elevationDeg, distance, fovDeg, near, far,
-            timeS, shading, samples, filter, errorPx, axes, curves, focus, debug, background,
-            entity, format, quality, layer, viewer, specular, scale);
+            timeS, shading, samples, filter, errorPx, budgetMs, axes, curves, focus, debug,
+            background, entity, format, quality, layer, viewer, specular, scale);
 }
 
 template <typename Archive, Is<Stats> T>
@@ -73,10 +73,16 @@ void visit(Archive& archive, T& value) {
     archive(parseMs, geometryMs, drawMs, readbackMs, encodeMs);
 }
 
+template <typename Archive, Is<Quality> T>
+void visit(Archive& archive, T& value) {
+    auto& [samples, errorPx, expectedMs, within] = value;
+    archive(samples, errorPx, expectedMs, within);
+}
+
 template <typename Archive, Is<Picture> T>
 void visit(Archive& archive, T& value) {
-    auto& [bytes, contentType, width, height, diagnostics, camera, stats, times] = value;
-    archive(bytes, contentType, width, height, diagnostics, camera, stats, times);
+    auto& [bytes, contentType, width, height, diagnostics, camera, stats, times, quality] = value;
+    archive(bytes, contentType, width, height, diagnostics, camera, stats, times, quality);
 }
 
 template <typename Archive, Is<ModelElement> T>

@@ -328,10 +328,11 @@ TEST_CASE("the error bound is never exceeded: 10,000 shapes, cameras and scales"
         if (plan.items.empty()) continue;  // outside the view
         ++seen;
         const double worst = worstPx(subject, plan, lottery);
-        CAPTURE(i, subject.name, view.options.errorPx, worst, plan.items[0].mesh->mesh.triangles());
+        CAPTURE(i, subject.name, *view.options.errorPx, worst,
+                plan.items[0].mesh->mesh.triangles());
         // Positions are floats: 6e-8 of the distance to the object's middle.
-        REQUIRE(worst <= view.options.errorPx + 2e-3);
-        shares[subject.name].push_back(worst / view.options.errorPx);
+        REQUIRE(worst <= *view.options.errorPx + 2e-3);
+        shares[subject.name].push_back(worst / *view.options.errorPx);
     }
     REQUIRE(seen == 10'000);
     for (auto& [name, all] : shares) {
@@ -356,7 +357,7 @@ TEST_CASE("half the error never makes a coarser mesh, and an orbit meets few mes
             return render::plan(view.scene, view.options, assets, meshes).stats.triangles;
         };
         const auto before = triangles();
-        view.options.errorPx = std::max(0.01, view.options.errorPx / 2.0);
+        view.options.errorPx = std::max(0.01, *view.options.errorPx / 2.0);
         CHECK(triangles() >= before);
     }
     std::map<std::string, std::string> files;

@@ -23,7 +23,8 @@ void checkOptions(const render::PictureOptions& options) {
         if (number) checkNumber(*number);
     require(!options.fovDeg || (*options.fovDeg > 0 && *options.fovDeg < 180), "no field of view");
     checkNumber(options.timeS);
-    require(options.errorPx > 0, "an error that nothing can keep");
+    require(options.errorPx.value_or(1.0) > 0, "an error that nothing can keep");
+    require(options.budgetMs.value_or(1.0) > 0, "a budget that nothing can keep");
     require(options.quality >= 1 && options.quality <= 100, "a quality out of range");
     require(options.scale >= 0.1 && options.scale <= 1.0, "a scale out of range");
 }

@@ -87,8 +87,8 @@ class Planner {
 
   private:
     void chooseStyle(bool lights) {
-        plan_.samples = options_.samples.value_or(
-            scene_.settings.samples.value_or(defaultSamples(errorPx_)));
+        plan_.samples =
+            options_.samples.value_or(scene_.settings.samples.value_or(defaultSamples(errorPx_)));
         plan_.shading = options_.shading          ? *options_.shading
                         : scene_.settings.shading ? *scene_.settings.shading
                                                   : automaticShading(scene_, lights);

@@ -134,7 +134,8 @@ void Service::finish(const http::Request& request, http::Response& response) con
     if (options_.corsOrigin.empty()) return;
     response.set("Access-Control-Allow-Origin", options_.corsOrigin);
     response.set("Access-Control-Expose-Headers",
-                 "ETag, Location, Server-Timing, X-Request-Id, X-Farol-Stats, X-Farol-Quality, X-Farol-Camera, "
+                 "ETag, Location, Server-Timing, X-Request-Id, X-Farol-Stats, X-Farol-Quality, "
+                 "X-Farol-Camera, "
                  "X-Farol-Diagnostics, Retry-After");
     if (request.method == "OPTIONS") {
         response.set("Access-Control-Allow-Methods", "GET, HEAD, POST, DELETE, OPTIONS");

@@ -1,14 +1,11 @@
 #include "grade/compare.h"
 
-#include <charconv>
-#include <cmath>
 #include <iostream>
 #include <memory>
 #include <vector>
 
 #include "cli/command.h"
 #include "cli/files.h"
-#include "grade/client_area.h"
 #include "grade/flip.h"
 #include "render/encode.h"
 #include "render/image_file.h"
@@ -22,49 +19,28 @@ struct Flags {
     bool maskAxes = false;
 };
 
+/// A fault in the flag is one of the command line.
 grade::Rectangle parseRectangle(const std::string& flag, const std::string& text) {
-    grade::Rectangle wanted;
-    const char *at = text.data(), *end = at + text.size();
-    const auto number = [&](char before, int& value) {
-        if (before != '\0' && (at == end || *at++ != before)) return false;
-        const auto [next, error] = std::from_chars(at, end, value);
-        at = next;
-        return error == std::errc();
-    };
-    if (!number('\0', wanted.width) || !number('x', wanted.height) || !number('+', wanted.x) ||
-        !number('+', wanted.y) || at != end)
-        throw UsageError(flag + " " + text + ": takes WxH+X+Y, as in 512x512+1+31");
-    return wanted;
-}
-
-/// Takes the part that `text` names; "auto": the client area of a window.
-render::Image cut(const render::Image& image, const std::string& text, const std::string& path) {
-    if (text.empty()) return image;
-    if (text == "auto") return grade::crop(image, grade::clientArea(image));
-    const grade::Rectangle wanted = parseRectangle("--crop", text);
-    if (image.width == wanted.width && image.height == wanted.height) return image;
     try {
-        return grade::crop(image, wanted);
+        return grade::readRectangle(text, flag);
     } catch (const Error& error) {
-        throw Error(error.code(), error.what(), {path, 0, 0});
+        throw UsageError(error.what());
     }
 }
 
 render::Image open(const std::string& path, const std::string& crop) {
-    return cut(render::decodeImage(readInput(path), path, {path, 0, 0}), crop, path);
+    const render::Image image = render::decodeImage(readInput(path), path, {path, 0, 0});
+    try {
+        return grade::cut(image, crop);
+    } catch (const Error& error) {
+        throw Error(error.code(), error.what(), {path, 0, 0});
+    }
 }
 
 std::string requirePng(const std::string& flag, const std::string& path) {
     if (!path.empty() && endingOf(path) != "png")
         throw UsageError(flag + " " + path + ": must end with .png");
     return path;
-}
-
-nlohmann::json shares(const std::array<double, grade::kLevels.size()>& within) {
-    nlohmann::json all;
-    for (std::size_t i = 0; i < within.size(); ++i)
-        all.push_back({{"levels", grade::kLevels[i]}, {"share", within[i]}});
-    return all;
 }
 
 std::string number(double value) {
@@ -112,22 +88,7 @@ int run(const Flags& flags, Report& report) {
     if (!flags.heat.empty())
         writeOutput(flags.heat, render::encodePng(grade::heatMap(grade::flip(
                                     grade::FloatImage(first), grade::FloatImage(second)))));
-    report.set("width", found.width);
-    report.set("height", found.height);
-    report.set("mean", found.meanLevels);
-    report.set("max", found.maxLevels);
-    report.set("within", shares(found.within));
-    report.set("psnr", std::isfinite(found.psnrDb) ? nlohmann::json(found.psnrDb) : nullptr);
-    report.set("ssim", found.ssim ? nlohmann::json(*found.ssim) : nullptr);
-    report.set("flip", {{"mean", found.flip.mean},
-                        {"median", found.flip.median},
-                        {"p95", found.flip.p95},
-                        {"p99", found.flip.p99},
-                        {"max", found.flip.max}});
-    report.set("counted", found.counted);
-    report.set("tolerant", {{"mean", found.tolerantMeanLevels},
-                            {"max", found.tolerantMaxLevels},
-                            {"within", shares(found.tolerantWithin)}});
+    report.merge(nlohmann::json::parse(grade::toJson(found)));
     if (!report.json()) print(found);
     return kDone;
 }

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "grade/mask.h"
@@ -33,6 +34,16 @@ struct Comparison {
 /// faded to a quarter, the tolerant difference in red, eight times as strong.
 std::pair<Comparison, render::Image> compare(const render::Image& first,
                                              const render::Image& second, const Mask& mask = {});
+
+/// As JSON, an object; PSNR is null where the pictures are equal, SSIM where they are too small.
+std::string toJson(const Comparison& comparison);
+
+/// The rectangle that "WxH+X+Y" says, px. Throws Error option.range, which names `field`.
+Rectangle readRectangle(const std::string& text, const std::string& field);
+
+/// The part that `wanted` names: "" all of it, "auto" the client area of a screenshot, else a
+/// rectangle, unless the picture has that size already. Throws as readRectangle and crop do.
+render::Image cut(const render::Image& image, const std::string& wanted);
 
 /// That part of the picture. Throws Error image.crop when it is empty or reaches beyond it.
 render::Image crop(const render::Image& image, const Rectangle& part);

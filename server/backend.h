@@ -39,6 +39,7 @@ struct Turn {
     std::string session;   ///< chosen by the client; empty: not one of a session
     std::int64_t seq = 0;  ///< grows from frame to frame
 };
+
 /// A round of pictures: the eye goes about the target once.
 struct Turntable {
     int frames = 24;
@@ -62,6 +63,19 @@ struct GradeReply {
     /// reference: one a view.
     std::vector<std::string> pictures;
     double readMs = 0, drawMs = 0, compareMs = 0;  ///< stages
+};
+
+/// Two pictures, or scenes that are drawn first, to tell the difference of. A scene's job holds the
+/// options that it is drawn by; where they give no size and the other is a picture, it is as large.
+struct CompareJob {
+    grade::Subject first, second;
+    std::string crop, mask;  ///< as in docs/http.md
+    bool pictures = false;   ///< are wanted too
+};
+
+struct CompareReply {
+    std::string json;        ///< grade::toJson
+    std::string diff, heat;  ///< PNG
 };
 
 template <typename Result>
@@ -108,6 +122,7 @@ class Backend {
     /// The files of an archive (scene/archive.h).
     virtual Done<scene::Bundle> unpack(const std::string& archive) = 0;
     virtual Done<GradeReply> grade(const GradeJob& job) = 0;
+    virtual Done<CompareReply> compare(const CompareJob& job) = 0;
     /// Draws a tiny known scene and checks its pixels. Throws std::runtime_error with the reason
     /// when they are wrong.
     virtual void check() = 0;

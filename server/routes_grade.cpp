@@ -1,9 +1,10 @@
-// The route that grades: a submission against a reference, by a rubric.
+// The routes that compare and grade.
 #include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "grade/base64.h"
+#include "grade/compare.h"
 #include "scene/archive.h"
 #include "scene/words.h"
 #include "server/problem.h"
@@ -71,7 +72,61 @@ GradeJob readJob(std::vector<Part> parts) {
     return job;
 }
 
+CompareJob readComparison(std::vector<Part> parts) {
+    CompareJob job;
+    bool first = false, second = false;
+    for (Part& part : parts) {
+        const std::string name = part.name;
+        if (name != "first" && name != "second")
+            throw Error(
+                "http.multipart",
+                "The part " + scene::quoted(name) + " is not known; known are first and second.",
+                {}, scene::shown(name));
+        bool& seen = name == "first" ? first : second;
+        if (seen || part.content.empty())
+            throw Error("http.multipart",
+                        "The part \"" + name + (seen ? "\" is there twice." : "\" is empty."), {},
+                        name);
+        seen = true;
+        (name == "first" ? job.first : job.second) = subjectOf(std::move(part));
+    }
+    for (const auto& [name, seen] : {std::pair{"first", first}, {"second", second}})
+        if (!seen)
+            throw Error("http.multipart", std::string("There is no part named \"") + name + "\".",
+                        {}, name);
+    return job;
+}
+
 }  // namespace
+
+http::Response Service::postCompare(const Call& call) {
+    const Parameters wanted =
+        readParameters(call.request.query, {true, true, {"crop", "mask", "pictures"}, {}});
+    const std::string crop = wanted.ownValue("crop"), mask = wanted.ownValue("mask");
+    if (!crop.empty() && crop != "auto") grade::readRectangle(crop, "crop");
+    if (!mask.empty() && mask != "axes") grade::readRectangle(mask, "mask");
+    const bool pictures = wholeNumber("pictures", wanted.ownValue("pictures", "0"), 0, 1) == 1;
+    CompareJob job = readComparison(readParts(call.request, call.body, options_.maxBodyBytes));
+    job.crop = crop;
+    job.mask = mask;
+    job.pictures = pictures;
+    for (grade::Subject* subject : {&job.first, &job.second}) {
+        subject->job.options = wanted.picture;
+        subject->job.strict = wanted.strict;
+    }
+    const Done<CompareReply> done = backend_.compare(job);
+    json body = json::parse(done.result.json, nullptr, false);
+    if (!body.is_object()) throw std::runtime_error("a worker sent no comparison");
+    if (pictures) {
+        body["diff"] = "data:image/png;base64," + grade::base64(done.result.diff);
+        body["heat"] = "data:image/png;base64," + grade::base64(done.result.heat);
+    }
+    http::Response response;
+    response.contentType = "application/json";
+    response.body = dump(body, 2) + "\n";
+    response.set("Cache-Control", "no-store");
+    return response;
+}
 
 http::Response Service::postGrade(const Call& call) {
     const Parameters wanted = readParameters(call.request.query, {false, false, {"pictures"}, {}});

@@ -64,6 +64,7 @@ std::vector<Route> Service::routes() {
         {"GET", "/metrics", call(&Service::metrics)},
         {"POST", "/v1/render", call(&Service::postRender)},
         {"POST", "/v1/validate", call(&Service::postValidate)},
+        {"POST", "/v1/compare", call(&Service::postCompare)},
         {"POST", "/v1/grade", call(&Service::postGrade)},
         {"GET", "/v1/scenes", call(&Service::listScenes)},
         {"POST", "/v1/scenes", call(&Service::postScene)},

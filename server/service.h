@@ -66,6 +66,7 @@ class Service final : public http::Handler {
     http::Response postRender(const Call& call);
     http::Response postValidate(const Call& call);
     http::Response postGrade(const Call& call);
+    http::Response postCompare(const Call& call);
     http::Response listScenes(const Call& call);
     http::Response postScene(const Call& call);
     http::Response deleteScene(const Call& call);

@@ -8,6 +8,7 @@
 #include "render/encode.h"
 #include "render/image_file.h"
 #include "scene/archive.h"
+#include "server/worker/comparison.h"
 #include "server/worker/pictures.h"
 
 namespace farol::server::worker {
@@ -126,6 +127,9 @@ Reply work(render::Renderer& renderer, grade::Grader& grader, const Request& req
                 break;
             case Task::grade:
                 reply.grade = makeGrade(grader, request.grade);
+                break;
+            case Task::compare:
+                reply.compare = compareSubjects(renderer, request.compare);
                 break;
             case Task::check:
                 check(renderer);

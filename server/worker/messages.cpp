@@ -119,6 +119,12 @@ void visit(Archive& archive, T& value) {
     archive(json, points, most, passed, refused, pictures, readMs, drawMs, compareMs);
 }
 
+template <typename Archive, Is<CompareReply> T>
+void visit(Archive& archive, T& value) {
+    auto& [json, diff, heat] = value;
+    archive(json, diff, heat);
+}
+
 namespace worker {
 constexpr Task lastOf(Task) { return Task::check; }
 constexpr Outcome lastOf(Outcome) { return Outcome::memory; }
@@ -131,8 +137,8 @@ void visit(Archive& archive, T& value) {
 
 template <typename Archive, Is<Reply> T>
 void visit(Archive& archive, T& value) {
-    auto& [outcome, diagnostics, message, picture, report, mesh, bundle, grade] = value;
-    archive(outcome, diagnostics, message, picture, report, mesh, bundle, grade);
+    auto& [outcome, diagnostics, message, picture, report, mesh, bundle, grade, compare] = value;
+    archive(outcome, diagnostics, message, picture, report, mesh, bundle, grade, compare);
 }
 
 namespace {
@@ -183,12 +189,16 @@ void unpackJob(Unpacker& unpacker, render::Job& job) {
 }
 
 std::string pack(const Request& request) {
-    const auto& [task, job, mesh, turntable, notice, grade] = request;
+    const auto& [task, job, mesh, turntable, notice, grade, compare] = request;
+    const auto& [first, second, crop, mask, pictures] = compare;
     Packer packer;
     packer(task, mesh, turntable, notice, grade.rubric, grade.reference.picture,
-           grade.reference.task, grade.submission.picture, grade.submission.task);
+           grade.reference.task, grade.submission.picture, grade.submission.task, crop, mask,
+           pictures, first.picture, second.picture);
     packJob(packer, job);
     packJob(packer, grade.reference.job);
+    packJob(packer, first.job);
+    packJob(packer, second.job);
     return packer.take();
 }
 
@@ -196,11 +206,15 @@ Request unpackRequest(std::string_view bytes) {
     Request request;
     Unpacker unpacker(bytes);
     GradeJob& grade = request.grade;
+    CompareJob& compare = request.compare;
     unpacker(request.task, request.mesh, request.turntable, request.notice, grade.rubric,
              grade.reference.picture, grade.reference.task, grade.submission.picture,
-             grade.submission.task);
+             grade.submission.task, compare.crop, compare.mask, compare.pictures,
+             compare.first.picture, compare.second.picture);
     unpackJob(unpacker, request.job);
     unpackJob(unpacker, grade.reference.job);
+    unpackJob(unpacker, compare.first.job);
+    unpackJob(unpacker, compare.second.job);
     unpacker.end();
     grade.submission.job = request.job;
     return request;

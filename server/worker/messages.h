@@ -9,7 +9,7 @@
 /// What the service and its workers say to each other.
 namespace farol::server::worker {
 
-enum class Task { render, inspect, mesh, unpack, turntable, notice, grade, check };
+enum class Task { render, inspect, mesh, unpack, turntable, notice, grade, compare, check };
 
 struct Request {
     Task task = Task::check;
@@ -17,7 +17,8 @@ struct Request {
     MeshJob mesh;
     Turntable turntable;
     std::string notice;  ///< the text; its picture is by the job's options
-    GradeJob grade;  ///< but for the submission's job
+    GradeJob grade;      ///< but for the submission's job
+    CompareJob compare;
 };
 
 /// A served folder travels by its path, which the worker may read; a bundle by its files.
@@ -42,6 +43,7 @@ struct Reply {
     std::string mesh;
     scene::Bundle bundle;  ///< of unpack
     GradeReply grade;
+    CompareReply compare;
 };
 
 std::string pack(const Reply& reply);

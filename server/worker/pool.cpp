@@ -300,6 +300,14 @@ Done<GradeReply> WorkerPool::grade(const GradeJob& job) {
     return {std::move(done.result.grade), done.queueMs};
 }
 
+Done<CompareReply> WorkerPool::compare(const CompareJob& job) {
+    Request request;
+    request.task = Task::compare;
+    request.compare = job;
+    Done<Reply> done = ask(pack(request), "");
+    return {std::move(done.result.compare), done.queueMs};
+}
+
 void WorkerPool::check() { ask(pack(Request{}), ""); }
 
 BackendState WorkerPool::state() const {

@@ -46,6 +46,7 @@ class WorkerPool final : public Backend {
                                  const render::PictureOptions& options) override;
     Done<scene::Bundle> unpack(const std::string& archive) override;
     Done<GradeReply> grade(const GradeJob& job) override;
+    Done<CompareReply> compare(const CompareJob& job) override;
     void check() override;
     BackendState state() const override;
     BackendFacts facts() const override;

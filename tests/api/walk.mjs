@@ -67,6 +67,10 @@ const form = new FormData();
 form.append('submission', new Blob([xml]), 'submission.xml');
 form.append('reference', new Blob([xml]), 'reference.xml');
 const graded = { method: 'POST', body: form };
+const pair = new FormData();
+pair.append('first', new Blob([xml]), 'first.xml');
+pair.append('second', new Blob([xml]), 'second.xml');
+const compared = { method: 'POST', body: pair };
 const upload = await (await fetch(`${base}/v1/scenes`, sample)).json();
 
 // The page's files have names of their content; a build without npm has none.
@@ -74,7 +78,7 @@ const asset = (await (await fetch(`${base}/`)).text()).match(/\/assets\/([\w.-]+
 
 /** A target that the operation answers with 200, 201 or 204. */
 const targetOf = (pattern) => pattern.replace('{id}', upload.id).replace('{shape}', 'cone').replace('{file}', asset ?? 'none');
-const fits = { args: '1,2,4,3', background: 'red', entity: 'scene.xml', eye: '3,2,5', target: '0,0,0', up: '0,1,0', q: 'box' };
+const fits = { args: '1,2,4,3', background: 'red', entity: 'scene.xml', eye: '3,2,5', target: '0,0,0', up: '0,1,0', q: 'box', crop: '4x4+0+0', mask: 'axes' };
 
 /** Values in the schema, and values beyond it. */
 function probesOf({ name, schema }) {
@@ -90,7 +94,7 @@ function probesOf({ name, schema }) {
 }
 
 async function walk(pattern, method, operation) {
-    const options = method !== 'post' ? {} : pattern === '/v1/grade' ? graded : sample;
+    const options = method !== 'post' ? {} : pattern === '/v1/grade' ? graded : pattern === '/v1/compare' ? compared : sample;
     const target = targetOf(pattern);
     if (method === 'delete') return;  // below, when nothing else needs the scene
     const { answer } = await ask(operation, method, target + (pattern.includes('{shape}') ? '?args=1,2,4,3' : ''), options);

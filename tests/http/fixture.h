@@ -32,6 +32,7 @@ class FakeBackend final : public server::Backend {
                                          const render::PictureOptions& options) override;
     server::Done<scene::Bundle> unpack(const std::string& archive) override;
     server::Done<server::GradeReply> grade(const server::GradeJob& job) override;
+    server::Done<server::CompareReply> compare(const server::CompareJob& job) override;
     void check() override;
     server::BackendState state() const override { return {1, 0, 0, {}, 0, 0}; }
     std::string version() const override { return name; }

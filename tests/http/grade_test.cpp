@@ -38,3 +38,34 @@ TEST_CASE("a grade takes a submission and a reference, and nothing else") {
                kMultipartType)
               .status == 400);
 }
+
+TEST_CASE("a comparison takes two pictures or scenes, and nothing else") {
+    FakeServer server;
+    const FilePart first{"first", "a.png", "\x89PNG...", ""},
+        second{"second", "b.xml", "<world/>", ""};
+    struct Case {
+        const char* about;
+        std::string query;
+        std::vector<FilePart> parts;
+        int status;
+        const char* code;
+    };
+    const std::vector<Case> table = {
+        {"both", "", {first, second}, 200, ""},
+        {"options", "?crop=auto&mask=axes&pictures=1&azimuth=3", {first, second}, 200, ""},
+        {"rectangles", "?crop=4x4%2B0%2B0&mask=1x1%2B2%2B2", {first, second}, 200, ""},
+        {"one", "", {first}, 400, "http.multipart"},
+        {"twice", "", {first, first, second}, 400, "http.multipart"},
+        {"empty", "", {first, {"second", "b.png", "", ""}}, 400, "http.multipart"},
+        {"another", "", {first, second, {"third", "c", "x", ""}}, 400, "http.multipart"},
+        {"a crop that is none", "?crop=4x4", {first, second}, 400, "option.range"},
+        {"a mask that is none", "?mask=all", {first, second}, 400, "option.range"},
+    };
+    for (const Case& one : table) {
+        INFO(one.about);
+        const Answer answer =
+            post(server.port(), "/v1/compare" + one.query, multipart(one.parts), kMultipartType);
+        CHECK(answer.status == one.status);
+        CHECK(answer.code() == one.code);
+    }
+}

@@ -156,6 +156,10 @@ TEST_CASE("every route answers with statuses that the document lists") {
                 {{"submission", "s.xml", "<world/>", ""}, {"reference", "r.xml", "<world/>", ""}});
             type.emplace_back("Content-Type", kMultipartType);
         }
+        if (key.first == "/v1/compare") {
+            body = multipart({{"first", "a.xml", "<world/>", ""}, {"second", "b.png", "x", ""}});
+            type.emplace_back("Content-Type", kMultipartType);
+        }
         unacceptable = type;
         unacceptable.emplace_back("Accept", "text/nothing");
         std::vector<Ask> probes = {{method, target, type, body},

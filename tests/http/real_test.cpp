@@ -325,3 +325,26 @@ TEST_CASE("many clients at once get the right pictures") {
     for (std::thread& client : clients) client.join();
     CHECK(wrong == 0);
 }
+
+TEST_CASE("a scene is compared with a picture of it, drawn as large") {
+    RealServer server;
+    const std::string box = model("box_2_3.3d");
+    const std::string picture = post(server.port(), "/v1/render?width=40&height=30", box).body;
+    const auto compared = [&](const std::string& query, const std::string& other) {
+        return post(server.port(), "/v1/compare" + query,
+                    multipart({{"first", "a.png", picture, ""}, {"second", "b.xml", other, ""}}),
+                    kMultipartType);
+    };
+    const Answer same = compared("?pictures=1", box);
+    REQUIRE(same.status == 200);
+    CHECK(same.json()["width"] == 40);
+    CHECK(same.json()["max"] == 0);
+    CHECK(same.json()["psnr"].is_null());
+    for (const char* name : {"diff", "heat"})
+        CHECK(same.json()[name].get<std::string>().starts_with("data:image/png;base64,"));
+    const Answer other = compared("", model("sphere_1_8_8.3d"));
+    CHECK(other.json()["max"] > 50);
+    CHECK_FALSE(other.json().contains("diff"));
+    CHECK(compared("?width=20&height=15", box).code() == "image.size");
+    CHECK(compared("?crop=400x400%2B0%2B0", box).code() == "image.crop");
+}

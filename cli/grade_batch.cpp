@@ -80,9 +80,13 @@ std::string Batch::keyOf(const grade::Subject& subject, const Task& task) const 
 
 BatchTimes Batch::run() {
     const auto begin = Clock::now();
+    std::vector<std::filesystem::path> apart = {
+        std::filesystem::path(options_.resultsDir).parent_path()};
+    if (!submissions_.empty())  // all lie in one folder
+        apart.push_back(std::filesystem::path(submissions_.front().path).parent_path());
     for (const GradeTask& one : names_) {
         auto task = std::make_shared<Task>();
-        task->reference = readSubject(one.path, "", true);
+        task->reference = readReference(one.path, apart);
         task->digest = digestOf(task->reference);
         // Asked for first: a reference that is at fault ends the run before it begins.
         server::GradeJob job;
@@ -111,7 +115,7 @@ void Batch::gradeOne(std::size_t submission, std::size_t task) {
     Entry& entry = entries_[submission * names_.size() + task];
     try {
         server::GradeJob job;
-        job.submission = readSubject(submissions_[submission].path, names_[task].name, false);
+        job.submission = readSubject(submissions_[submission].path, names_[task].name);
         job.reference = tasks_[task]->reference;
         job.rubric = options_.rubric;
         const std::string file =

@@ -50,15 +50,19 @@ void readMoodle(Submission& one) {
     one.number = parts[2];
 }
 
-/// All files below a folder, by relative path.
-void collect(const fs::path& root, const fs::path& folder, std::map<std::string, std::string>& out,
-             std::size_t& bytes, int depth) {
+/// All files below a folder, by relative path, but for the folders `apart`.
+void collect(const fs::path& root, const fs::path& folder, const std::vector<fs::path>& apart,
+             std::map<std::string, std::string>& out, std::size_t& bytes, int depth) {
     constexpr int kDeepest = 16;
     if (depth > kDeepest)
         throw Error("limit.bundle", "its folders are nested too deep", {root.string(), 0, 0});
     for (const fs::path& path : entriesOf(folder)) {
         if (fs::is_directory(path)) {
-            collect(root, path, out, bytes, depth + 1);
+            std::error_code failed;
+            const bool leftOut = std::any_of(apart.begin(), apart.end(), [&](const fs::path& one) {
+                return fs::equivalent(one, path, failed);
+            });
+            if (!leftOut) collect(root, path, apart, out, bytes, depth + 1);
             continue;
         }
         if (!fs::is_regular_file(path)) continue;
@@ -126,24 +130,28 @@ std::vector<GradeTask> findTasks(const std::string& reference) {
     return tasks;
 }
 
-grade::Subject readSubject(const std::string& path, const std::string& task, bool beside) {
+grade::Subject readSubject(const std::string& path, const std::string& task) {
     std::map<std::string, std::string> files;
     std::size_t bytes = 0;
     if (fs::is_directory(path)) {
-        collect(path, path, files, bytes, 0);
+        collect(path, path, {}, files, bytes, 0);
         return grade::subjectOf(std::move(files), path, task);
     }
     const std::string name = fs::path(path).filename().string();
-    if (beside && endingOf(name) == "xml") {
-        collect(folderOf(path), folderOf(path), files, bytes, 0);
-        grade::Subject subject;
-        subject.job.name = name;
-        subject.job.xml = readInput(path);
-        subject.job.assets = std::make_shared<scene::BundleAssets>(std::move(files));
-        return subject;
-    }
     files[name] = readInput(path);
     return grade::subjectOf(std::move(files), path, isArchive(name) ? task : "");
+}
+
+grade::Subject readReference(const std::string& path, const std::vector<fs::path>& apart) {
+    if (fs::is_directory(path) || endingOf(path) != "xml") return readSubject(path, "");
+    std::map<std::string, std::string> files;
+    std::size_t bytes = 0;
+    collect(folderOf(path), folderOf(path), apart, files, bytes, 0);
+    grade::Subject subject;
+    subject.job.name = fs::path(path).filename().string();
+    subject.job.xml = readInput(path);
+    subject.job.assets = std::make_shared<scene::BundleAssets>(std::move(files));
+    return subject;
 }
 
 }  // namespace farol::cli

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -34,8 +35,13 @@ std::vector<GradeTask> findTasks(const std::string& reference);
 /// The scene or the picture at `path`, with all files beside or below it in memory. Archives are
 /// left packed: they are opened in the sandbox. Of several .xml files in a folder the one of the
 /// task's name is taken, else scene.xml, else the highest in the folder if it is the only one
-/// there. `task` may be empty. `beside`: files beside a scene's file belong to it.
+/// there. `task` may be empty.
 /// Throws Error grade.no-scene, grade.which-scene, limit.bundle, asset.*.
-grade::Subject readSubject(const std::string& path, const std::string& task, bool beside);
+grade::Subject readSubject(const std::string& path, const std::string& task);
+
+/// The same for a reference. The files beside its .xml file belong to it, but for the folders
+/// `apart`: the submissions and the report often lie beside it, too.
+grade::Subject readReference(const std::string& path,
+                             const std::vector<std::filesystem::path>& apart);
 
 }  // namespace farol::cli

@@ -68,8 +68,8 @@ form.append('submission', new Blob([xml]), 'submission.xml');
 form.append('reference', new Blob([xml]), 'reference.xml');
 const graded = { method: 'POST', body: form };
 const pair = new FormData();
-pair.append('first', new Blob([xml]), 'first.xml');
-pair.append('second', new Blob([xml]), 'second.xml');
+pair.append('first', new Blob([xml]), 'scene.xml');
+pair.append('second', new Blob([xml]), 'scene.xml');
 const compared = { method: 'POST', body: pair };
 const upload = await (await fetch(`${base}/v1/scenes`, sample)).json();
 

@@ -25,7 +25,7 @@ void readPng(std::string_view bytes, bool wantsPixels, Decoded& out);   // PNG 1
 void readJpeg(std::string_view bytes, bool wantsPixels, Decoded& out);  // ITU T.81
 void readWebp(std::string_view bytes, bool wantsPixels, Decoded& out);  // RFC 9649, one picture
 
-/// All else, by OpenImageIO, which with all that it needs is half a second of a cold start: it lies
+/// All else, by OpenImageIO, which with all that it needs takes 0.25 s of CPU time to load: it lies
 /// in a module of its own (render/oiio) that is loaded when the first such file comes. `format` is
 /// OpenImageIO's name. Throws also where the module or one of its libraries is not installed.
 void readByModule(const char* format, std::string_view bytes, bool wantsPixels, Decoded& out);

@@ -18,6 +18,7 @@
 #include "generator/primitives/sphere.h"
 #include "generator/primitives/torus.h"
 #include "generator/sources.h"
+#include "scene/words.h"
 
 namespace farol::generator {
 namespace {
@@ -39,12 +40,6 @@ struct Table {
 const Table& table() {
     static const Table made;
     return made;
-}
-
-bool sameWord(const std::string& a, const std::string& b) {
-    const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c; };
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                      [&](char x, char y) { return lower(x) == lower(y); });
 }
 
 /// A call with the bytes of its file, its triangles counted and within the limit.
@@ -97,9 +92,9 @@ std::span<const Shape> shapes() { return table().shapes; }
 
 const Shape* findShape(const std::string& name) {
     for (const Shape& shape : table().shapes) {
-        if (sameWord(shape.name, name)) return &shape;
+        if (scene::sameWord(shape.name, name)) return &shape;
         for (const std::string& alias : shape.aliases)
-            if (sameWord(alias, name)) return &shape;
+            if (scene::sameWord(alias, name)) return &shape;
     }
     return nullptr;
 }

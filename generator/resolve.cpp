@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <map>
 #include <tuple>
 
@@ -5,6 +6,7 @@
 #include "generator/registry.h"
 #include "generator/sources.h"
 #include "generator/words.h"
+#include "scene/words.h"
 
 namespace farol::generator {
 namespace {
@@ -184,8 +186,13 @@ class Resolver {
 
     const std::vector<std::string>* comment(const std::string& file) const {
         const auto& comments = scene_.generatorComments;
+        const std::string base = baseNameOf(file);
         auto found = comments.find(file);
-        if (found == comments.end()) found = comments.find(baseNameOf(file));
+        if (found == comments.end()) found = comments.find(base);
+        if (found == comments.end())  // as file names of some systems, whatever the case
+            found = std::find_if(comments.begin(), comments.end(), [&](const auto& entry) {
+                return scene::sameWord(entry.first, base);
+            });
         return found == comments.end() ? nullptr : &found->second;
     }
 

@@ -4,9 +4,12 @@
 
 #include "generator/call.h"
 #include "generator/sources.h"
+#include "scene/words.h"
 
 namespace farol::generator {
 namespace {
+
+using scene::sameWord;
 
 constexpr std::size_t kMaxWords = 16;
 
@@ -38,6 +41,48 @@ std::string leadingWord(const std::string& fileName) {
     return base.substr(0, base.find_first_of("_-.0123456789 "));
 }
 
+constexpr std::string_view kTeapot = "teapot";
+constexpr const char* kTeapotFile = "teapot.patch";
+
+bool isPatch(const std::string& word) {
+    const Shape* shape = findShape(word);
+    return shape != nullptr && shape->name == "patch";
+}
+
+bool isPatchFile(const std::string& word) {
+    const std::size_t dot = word.rfind('.');
+    return dot != std::string::npos && sameWord(word.substr(dot), ".patch");
+}
+
+/// Without its ending: of "sphere_1.5_8_8" the dot is a number's.
+std::string withoutEnding(const std::string& name) {
+    const std::size_t dot = name.rfind('.');
+    if (dot == std::string::npos) return name;
+    const std::string ending = name.substr(dot + 1);
+    const bool fraction = ending.find_first_not_of("0123456789_") == std::string::npos;
+    return fraction ? name : name.substr(0, dot);
+}
+
+/// "bezier_10", "teapot_10", "bezier_comet_10", "teapot_patch_10": numbers, and the name of a
+/// file of patches, which is the teapot's where none is.
+std::optional<std::vector<std::string>> patchOfName(const std::vector<std::string>& words) {
+    std::vector<std::string> numbers;
+    std::string file;
+    for (const std::string& word : words) {
+        if (isNumber(word))
+            numbers.push_back(word);
+        else if (isPatch(word))
+            continue;
+        else if (file.empty())
+            file = sameWord(word, kTeapot) ? kTeapotFile : word + ".patch";
+        else
+            return std::nullopt;
+    }
+    std::vector<std::string> out = {"patch", file.empty() ? kTeapotFile : file};
+    out.insert(out.end(), numbers.begin(), numbers.end());
+    return out;
+}
+
 /// Counts first, then lengths: the order of some older generators.
 std::optional<std::vector<std::string>> countsLast(const std::vector<std::string>& words,
                                                    const Shape& shape) {
@@ -62,27 +107,25 @@ std::optional<std::vector<std::string>> countsLast(const std::vector<std::string
 std::vector<std::string> splitWords(const std::string& text) { return split(text, " \t\r\n,\"'"); }
 
 std::optional<std::vector<std::string>> wordsOfName(const std::string& fileName) {
-    std::string base = baseNameOf(fileName);
-    const std::size_t dot = base.rfind('.');
-    if (dot == std::string::npos) return std::nullopt;
-    std::vector<std::string> words = split(base.substr(0, dot), "_ ");
-    if (words.empty()) return std::nullopt;
+    const std::string base = baseNameOf(fileName);
+    std::vector<std::string> words = split(withoutEnding(base), "_ ");
+    if (words.empty() || (words.size() == 1 && words[0] == base)) return std::nullopt;
+    if (sameWord(words[0], kTeapot) || isPatch(words[0])) return patchOfName(words);
     const Shape* shape = findShape(words[0]);
-    const bool teapot = words[0] == "teapot";
-    if (shape == nullptr && !teapot) return std::nullopt;
+    if (shape == nullptr || shape->takesFile)  // a profile's name cannot stand in it
+        return std::nullopt;
     for (std::size_t i = 1; i < words.size(); ++i)
         if (!isNumber(words[i])) return std::nullopt;
-    if (teapot || shape->name == "patch") {
-        words[0] = "patch";
-        words.insert(words.begin() + 1, "teapot.patch");
-    } else if (shape->takesFile) {
-        return std::nullopt;  // a profile's name cannot stand in it
-    }
     return words;
 }
 
 std::vector<std::string> wordsOfComment(std::vector<std::string> words, const std::string& fileName,
                                         const Location& where, Diagnostics& diagnostics) {
+    if (words.size() > 1 && sameWord(words[0], "generator")) words.erase(words.begin());
+    if (!words.empty() && (sameWord(words[0], kTeapot) || isPatchFile(words[0])))
+        words.insert(words.begin(), "patch");
+    if (words.size() > 1 && isPatch(words[0]) && sameWord(words[1], kTeapot))
+        words[1] = kTeapotFile;
     if (words.empty() || findShape(words[0]) == nullptr) {
         const std::string named = leadingWord(fileName);
         // A word that is no number is a shape's name that does not exist: let it be reported.
@@ -93,7 +136,7 @@ std::vector<std::string> wordsOfComment(std::vector<std::string> words, const st
     if (shape != nullptr && shape->takesFile) {
         const auto file = std::find_if_not(words.begin() + 1, words.end(), isNumber);
         if (file == words.end() && shape->name == "patch")
-            words.insert(words.begin() + 1, "teapot.patch");
+            words.insert(words.begin() + 1, kTeapotFile);
         else if (file != words.end())
             std::rotate(words.begin() + 1, file, file + 1);
     }

@@ -13,10 +13,12 @@ namespace farol::generator {
 std::vector<std::string> splitWords(const std::string& text);
 
 /// The words that a file name says: "cone_1_2_4_3.3d" is {"cone", "1", "2", "4", "3"}, and
-/// "bezier_10.3d" {"patch", "teapot.patch", "10"}. Nothing when the name is no shape's.
+/// "bezier_10.3d" {"patch", "teapot.patch", "10"}; the ending may be missing after a number.
+/// Nothing when the name is no shape's.
 std::optional<std::vector<std::string>> wordsOfName(const std::string& fileName);
 
-/// The words of a generator comment as a shape takes them. A missing shape word is taken from the
+/// The words of a generator comment or command as a shape takes them, the program's name and
+/// "teapot" for its patches understood. A missing shape word is taken from the
 /// file's name ("2 3" for box_2_3.3d); a file that stands after the numbers goes first. Throws as
 /// parseCall where no order of the arguments makes sense; the older order, counts before lengths
 /// ("sphere 8 8 1"), is understood with a warning at `where`.

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "scene/scene_builder.h"
+#include "scene/text.h"
 #include "scene/words.h"
 
 namespace farol::scene {
@@ -82,9 +83,14 @@ bool SceneBuilder::namedColor(const Values& given, std::string_view attribute, C
         color = *found;
         return true;
     }
+    std::vector<std::string> known;
+    for (const auto& [name, one] : colors_) known.push_back(name);
+    for (const BasicColor& one : kBasicColors) known.emplace_back(one.name);
+    const std::string near = didYouMean(given.text(attribute), known);
     findings().error("scene.unknown-color", given.where(attribute),
                      "there is no colour " + quoted(given.text(attribute)) +
-                         "; define it in <colors>, or write #rrggbb");
+                         "; define it in <colors>, or write #rrggbb" +
+                         (near.empty() ? "" : "; did you mean " + quoted(near) + "?"));
     return false;
 }
 
@@ -141,7 +147,9 @@ void SceneBuilder::colorElement(pugi::xml_node element, Model& model) {
     Material& material = materialOf(model);
     const ElementSpec& spec = elementSpec("color");
     values(element, spec);
+    std::set<std::string_view> seen;
     children(element, spec, [&](std::string_view canonical, pugi::xml_node child) {
+        onlyOnce(canonical, child, seen);
         const ElementSpec& part = elementSpec(canonical);
         if (canonical == "shininess")
             material.shininess =

@@ -1,6 +1,7 @@
 #include <glm/geometric.hpp>
 
 #include "scene/scene_builder.h"
+#include "scene/words.h"
 
 namespace farol::scene {
 
@@ -19,7 +20,7 @@ void SceneBuilder::groupElement(std::string_view canonical, pugi::xml_node eleme
     } else if (canonical == "translate" || canonical == "rotate" || canonical == "scale") {
         transform(canonical, element, group, state);
     } else if (canonical == "lights") {
-        lights(element, group);
+        lights(element, group, state);
     } else if (canonical == "light") {
         light(element, group);
     } else if (canonical == "models") {
@@ -181,6 +182,13 @@ void SceneBuilder::models(pugi::xml_node element, Group& group, GroupState& stat
     children(element, spec, [&](std::string_view, pugi::xml_node child) { model(child, group); });
 }
 
+void SceneBuilder::tellSwapped(const Values& given, std::string_view least, std::string_view most) {
+    if (given.has(least) && given.has(most) && given.number(least) > given.number(most))
+        findings().warn("scene.swapped", given.where(least),
+                        quoted(least) + " is more than " + quoted(most) +
+                            "; they are taken the other way round");
+}
+
 void SceneBuilder::scatter(pugi::xml_node element, Group& group) {
     const Values given = values(element, "scatter");
     Scatter made;
@@ -189,6 +197,8 @@ void SceneBuilder::scatter(pugi::xml_node element, Group& group) {
     made.radiusMax = given.number("xzMax", made.radiusMin);
     made.yMin = given.number("yMin", 0.0);
     made.yMax = given.number("yMax", 0.0);
+    tellSwapped(given, "xzMin", "xzMax");
+    tellSwapped(given, "yMin", "yMax");
     made.seed =
         static_cast<std::uint64_t>(given.number("seed", static_cast<double>(++session_.scatters)));
     if (group.scatter)

@@ -14,9 +14,31 @@ glm::dvec3 sphericalDirection(double alphaDeg, double betaDeg) {
     return {std::sin(a) * std::cos(b), std::sin(b), std::cos(a) * std::cos(b)};
 }
 
+const char* typeName(LightType type) {
+    if (type == LightType::directional) return "directional";
+    return type == LightType::spot ? "spot" : "point";
+}
+
+/// What the light says it is, else what its attributes say.
+LightType lightType(const Values& given) {
+    const std::string& type = given.text("type");
+    if (!type.empty())
+        return type == "directional" ? LightType::directional
+               : type == "spot"      ? LightType::spot
+                                     : LightType::point;
+    if (given.has("cutoff")) return LightType::spot;
+    const bool place = given.hasAny("posX posY posZ");
+    if (!place && given.hasAny("alpha beta dirX dirY dirZ")) return LightType::directional;
+    return LightType::point;
+}
+
 }  // namespace
 
-void SceneBuilder::lights(pugi::xml_node element, Group& group) {
+void SceneBuilder::lights(pugi::xml_node element, Group& group, GroupState& state) {
+    if (state.lights)
+        findings().warn("scene.duplicate-element", at(element),
+                        "a second <lights> in one group is added to the first");
+    state.lights = true;
     const ElementSpec& spec = elementSpec("lights");
     values(element, spec);
     children(element, spec, [&](std::string_view, pugi::xml_node child) { light(child, group); });
@@ -34,13 +56,12 @@ void SceneBuilder::light(pugi::xml_node element, Group& group) {
     Light made;
     made.where = at(element);
     const std::string& type = given.text("type");
-    const bool spherical = given.hasAny("alpha beta");
-    if (type == "directional" || (type.empty() && spherical)) made.type = LightType::directional;
-    if (type == "spot") made.type = LightType::spot;
+    made.type = lightType(given);
     if (given.text("space") == "camera") made.space = LightSpace::camera;
-    if (type.empty() && !spherical && !given.damaged)
+    if (type.empty() && !given.hasAny("alpha beta") && !given.damaged)
         findings().warn("scene.missing-attribute", at(element),
-                        "<light> has no \"type\"; it is taken as a point light");
+                        std::string("<light> has no \"type\"; it is taken as a ") +
+                            typeName(made.type) + " light");
     made.cutoffDeg = given.number("cutoff", 180.0);
     made.exponent = given.number("exponent", 0.0);
     colorAttributes(given, "diff", made.diffuse);

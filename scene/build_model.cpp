@@ -89,6 +89,8 @@ void SceneBuilder::model(pugi::xml_node element, Group& group) {
     scatter.radiusMax = given.number("xzMaxR", scatter.radiusMin);
     scatter.yMin = given.number("yMinR", 0.0);
     scatter.yMax = given.number("yMaxR", 0.0);
+    tellSwapped(given, "xzMinR", "xzMaxR");
+    tellSwapped(given, "yMinR", "yMaxR");
     scatter.seed = ++session_.scatters;
     Group& ring = group.groups.emplace_back();
     ring.where = made.where;
@@ -97,16 +99,9 @@ void SceneBuilder::model(pugi::xml_node element, Group& group) {
 }
 
 void SceneBuilder::modelChildren(pugi::xml_node element, Model& model) {
-    std::string_view seen[2];
+    std::set<std::string_view> seen;
     children(element, elementSpec("model"), [&](std::string_view canonical, pugi::xml_node child) {
-        if (canonical == "texture" || canonical == "color") {
-            std::string_view& mark = seen[canonical == "texture" ? 0 : 1];
-            if (!mark.empty())
-                findings().warn("scene.duplicate-element", at(child),
-                                "a second <" + std::string(canonical) +
-                                    "> in one <model>; what it says replaces the first");
-            mark = canonical;
-        }
+        onlyOnce(canonical, child, seen);
         if (canonical == "texture") texture(child, model);
         if (canonical == "color") colorElement(child, model);
         if (canonical == "texgen") texgen(child, model);

@@ -18,11 +18,22 @@ SceneBuilder::SceneBuilder(const Document& document, ReadSession& session)
     : document_(document), session_(session) {}
 
 Values SceneBuilder::values(pugi::xml_node element, const ElementSpec& spec, Unknown unknown) {
+    if (spec.children.empty())
+        for (const pugi::xml_node child : element.children())
+            if (child.type() == pugi::node_element) unknownChild(child, spec);
     return readValues(document_, element, spec, findings(), unknown);
 }
 
 Values SceneBuilder::values(pugi::xml_node element, std::string_view canonical, Unknown unknown) {
     return values(element, elementSpec(canonical), unknown);
+}
+
+void SceneBuilder::onlyOnce(std::string_view canonical, pugi::xml_node child,
+                            std::set<std::string_view>& seen) {
+    if (seen.insert(canonical).second) return;
+    findings().warn("scene.duplicate-element", at(child),
+                    "a second <" + std::string(canonical) + "> in one <" +
+                        shown(child.parent().name()) + ">; what it says replaces the first");
 }
 
 void SceneBuilder::unknownChild(pugi::xml_node child, const ElementSpec& parent) {
@@ -96,6 +107,7 @@ bool SceneBuilder::rootElement(std::string_view canonical, pugi::xml_node elemen
     if (canonical == "colors") return true;  // read before the rest
     for (const auto& [name, reader] : kReaders) {
         if (name != canonical) continue;
+        if (name != "entity") onlyOnce(name, element, rootSeen_);
         (this->*reader)(element);
         return true;
     }
@@ -118,7 +130,9 @@ void SceneBuilder::rootAttributes(pugi::xml_node root) {
     const double pitch = glm::radians(glm::clamp(given.number("pitch", 0.0), -89.9, 89.9));
     made.target = made.eye + glm::dvec3(std::sin(yaw) * std::cos(pitch), std::sin(pitch),
                                         std::cos(yaw) * std::cos(pitch));
-    if (!given.damaged) scene_.camera = made;
+    if (given.damaged) return;
+    scene_.camera = made;
+    rootSeen_.insert("camera");
 }
 
 void SceneBuilder::window(pugi::xml_node element) {
@@ -126,23 +140,19 @@ void SceneBuilder::window(pugi::xml_node element) {
     Window made;
     made.width = given.integer("width").value_or(made.width);
     made.height = given.integer("height").value_or(made.height);
-    if (scene_.window)
-        findings().warn("scene.duplicate-element", at(element),
-                        "a second <window> replaces the first");
     scene_.window = made;
 }
 
 void SceneBuilder::camera(pugi::xml_node element) {
-    if (scene_.camera && scene_.camera->where.line != 0)
-        findings().warn("scene.duplicate-element", at(element),
-                        "a second <camera> replaces the first");
     Camera made;
     made.where = at(element);
     bool damaged = false, hasPosition = false;
     Location up = made.where;
     const ElementSpec& spec = elementSpec("camera");
     values(element, spec);
+    std::set<std::string_view> seen;
     children(element, spec, [&](std::string_view canonical, pugi::xml_node child) {
+        onlyOnce(canonical, child, seen);
         const Values given = values(child, canonical);
         damaged = damaged || given.damaged;
         if (canonical == "position") {

@@ -41,6 +41,7 @@ void Findings::add(Diagnostics found) {
 
 void Findings::keep(Severity severity, std::string code, Location where, std::string message) {
     failed_ = failed_ || severity == Severity::error;
+    warned_ = warned_ || severity == Severity::warning;
     const bool room =
         all_.size() < kMaxKept || (severity == Severity::error && all_.size() < 2 * kMaxKept);
     if (room)

@@ -19,6 +19,8 @@ class Findings {
     void add(Diagnostics found);
 
     bool failed() const { return failed_; }
+    /// True while nothing but information was found.
+    bool clean() const { return !failed_ && !warned_; }
     /// True once there are more findings than will be shown: costly hints are not worth making.
     bool crowded() const { return all_.size() >= static_cast<std::size_t>(limit_); }
 
@@ -31,7 +33,7 @@ class Findings {
 
     bool strict_;
     int limit_;
-    bool failed_ = false;
+    bool failed_ = false, warned_ = false;
     int dropped_ = 0;
     Diagnostics all_;
     std::map<std::string, int> repeats_;

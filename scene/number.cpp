@@ -49,9 +49,13 @@ ParsedNumber parseNumber(std::string_view text) {
 }
 
 std::string formatNumber(double value) {
-    if (value == 0.0) return "0";  // also the negative zero
+    if (value == 0.0) return "0";   // also the negative zero
+    constexpr double kPlain = 1e9;  // whole numbers up to it without an exponent: 100000, not 1e+05
     char digits[32];
-    const auto [end, failed] = std::to_chars(digits, digits + sizeof digits, value);
+    const bool plain = std::abs(value) <= kPlain && value == std::floor(value);
+    const auto [end, failed] =
+        plain ? std::to_chars(digits, digits + sizeof digits, static_cast<long>(value))
+              : std::to_chars(digits, digits + sizeof digits, value);
     return failed == std::errc{} ? std::string(digits, end) : "0";
 }
 

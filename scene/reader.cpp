@@ -17,6 +17,22 @@ void completeScene(Scene& scene) {
     scene.camera = camera;
 }
 
+bool hasModels(const std::vector<Group>& groups) {
+    return std::any_of(groups.begin(), groups.end(), [](const Group& one) {
+        return !one.models.empty() || hasModels(one.groups);
+    });
+}
+
+/// A picture of nothing but its background needs a word.
+void tellEmpty(const Scene& scene, const std::string& name, Findings& findings) {
+    const bool something = hasModels(scene.groups) || scene.entity || scene.skybox ||
+                           scene.background.color || !scene.background.file.empty();
+    if (!something && findings.clean())  // else what was found may be why
+
+        findings.warn("scene.empty", {name, 1, 1},
+                      "the scene has no <model>: there is nothing to draw");
+}
+
 }  // namespace
 
 Scene readDocument(std::string_view xml, const std::string& name, ReadSession& session) {
@@ -38,6 +54,7 @@ ReadResult read(std::string_view xml, const ReadOptions& options, const Assets& 
     try {
         result.scene = readDocument(xml, bounded.name, session);
         completeScene(result.scene);
+        tellEmpty(result.scene, bounded.name, findings);
     } catch (const Error& error) {
         findings.add(error.diagnostics());
     }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "scene/number.h"
 #include "scene/repair_scanner.h"
 #include "scene/words.h"
 
@@ -32,28 +33,75 @@ std::size_t Repaired::origin(std::size_t offset) const {
     return after->second + (offset - after->first);
 }
 
+namespace {
+
+/// What a person puts round a file's name or a whole command.
+std::string_view unquoted(std::string_view word) {
+    constexpr std::string_view kQuotes = "\"'`";
+    while (!word.empty() && kQuotes.find(word.front()) != std::string_view::npos)
+        word.remove_prefix(1);
+    while (!word.empty() && kQuotes.find(word.back()) != std::string_view::npos)
+        word.remove_suffix(1);
+    return word;
+}
+
+bool isGenerator(std::string_view word) {
+    std::string program = lowerCase(baseName(unquoted(word)));
+    if (program.size() > 4 && program.substr(program.size() - 4) == ".exe")
+        program.resize(program.size() - 4);
+    return program == "generator";
+}
+
+bool isNumber(std::string_view word) { return parseNumber(word).problem.empty(); }
+
+/// Where the command begins: at the first word, or after a prompt or a label ("$", "run:"); prose
+/// that speaks of a generator names no numbers and no file.
+std::size_t commandAt(const std::vector<std::string_view>& words) {
+    constexpr std::size_t kLongestLabel = 3;  ///< words
+    for (std::size_t i = 0; i < words.size() && i <= kLongestLabel; ++i) {
+        if (!isGenerator(words[i])) continue;
+        const bool numbers =
+            std::any_of(words.begin() + static_cast<std::ptrdiff_t>(i), words.end(), isNumber);
+        const bool file = words.back().find('.') != std::string_view::npos;
+        return i == 0 || (numbers && file) ? i : words.size();
+    }
+    return words.size();
+}
+
+/// One command of a comment; see takeGeneratorWords.
+bool takeCommand(std::string_view line, std::map<std::string, std::vector<std::string>>& comments,
+                 bool& conflict) {
+    constexpr std::size_t kMaxWords = 32, kLongest = 1024;
+    // More markup in it: something was commented out, or the comment swallowed its neighbours.
+    if (line.size() > kLongest || line.find_first_of("<>") != std::string_view::npos ||
+        line.find("--") != std::string_view::npos)
+        return false;
+    const std::vector<std::string_view> words = split(line);
+    const std::size_t begin = commandAt(words);
+    if (words.size() < begin + 3 || words.size() > begin + kMaxWords) return false;
+    const std::string file(baseName(unquoted(words.back())));
+    if (file.empty()) return false;
+    const std::vector<std::string> arguments(words.begin() + static_cast<std::ptrdiff_t>(begin) + 1,
+                                             words.end() - 1);
+    const auto [entry, isNew] = comments.emplace(file, arguments);
+    conflict = conflict || (!isNew && entry->second != arguments);
+    return true;
+}
+
+}  // namespace
+
 bool takeGeneratorWords(std::string_view comment,
                         std::map<std::string, std::vector<std::string>>& comments, bool& conflict) {
-    constexpr std::size_t kMaxWords = 32;
     conflict = false;
     comment = trimmed(comment);
     while (!comment.empty() && comment.back() == '-') comment.remove_suffix(1);  // "--->"
-    // More markup in it: something was commented out, or the comment swallowed its neighbours.
-    if (comment.size() > 1024 || comment.find_first_of("<>") != std::string_view::npos ||
-        comment.find("--") != std::string_view::npos)
-        return false;
-    const std::vector<std::string_view> words = split(comment);
-    if (words.size() < 3 || words.size() > kMaxWords) return false;
-    std::string program = lowerCase(baseName(words.front()));
-    if (program.size() > 4 && program.substr(program.size() - 4) == ".exe")
-        program.resize(program.size() - 4);
-    if (program != "generator") return false;
-    const std::string file(baseName(words.back()));
-    if (file.empty()) return false;
-    const std::vector<std::string> arguments(words.begin() + 1, words.end() - 1);
-    const auto [entry, isNew] = comments.emplace(file, arguments);
-    conflict = !isNew && entry->second != arguments;
-    return true;
+    bool any = false;
+    while (!comment.empty()) {
+        const std::size_t end = std::min(comment.find_first_of("\n\r;"), comment.size());
+        any = takeCommand(trimmed(comment.substr(0, end)), comments, conflict) || any;
+        comment.remove_prefix(std::min(end + 1, comment.size()));
+    }
+    return any;
 }
 
 Repaired repair(std::string_view source, const LineIndex& lines, const ReadLimits& limits,

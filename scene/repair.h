@@ -42,8 +42,9 @@ struct Repaired {
 Repaired repair(std::string_view source, const LineIndex& lines, const ReadLimits& limits,
                 Findings& findings);
 
-/// Takes the words of one comment or argv ("generator cone 1 2 4 3 cone.3d") into `comments`.
-/// False if it is none. Sets `conflict` if the file had other words before (the first stay).
+/// Takes the commands of one comment or argv ("generator cone 1 2 4 3 cone.3d"), one a line or
+/// parted by semicolons, into `comments`. False if there is none. Sets `conflict` if the file had
+/// other words before (the first stay).
 bool takeGeneratorWords(std::string_view comment,
                         std::map<std::string, std::vector<std::string>>& comments, bool& conflict);
 

@@ -48,6 +48,16 @@ std::string utf8(std::string_view latin1) {
     return result;
 }
 
+/// True for a declaration that names Latin-1, or one of its kin that differ in a few signs.
+bool declaresLatin1(std::string_view text) {
+    const std::string head = lowerCase(text.substr(0, std::min<std::size_t>(text.find('>'), 200)));
+    const std::size_t name = head.find("encoding");
+    if (head.find("<?xml") == std::string::npos || name == std::string::npos) return false;
+    for (const char* one : {"8859-1", "latin1", "latin-1", "1252"})
+        if (head.find(one, name) != std::string::npos) return true;
+    return false;
+}
+
 }  // namespace
 
 RepairScanner::RepairScanner(std::string_view source, const LineIndex& lines,
@@ -55,7 +65,7 @@ RepairScanner::RepairScanner(std::string_view source, const LineIndex& lines,
     : source_(source), lines_(lines), limits_(limits), findings_(findings) {
     if (source_.substr(0, 3) == "\xEF\xBB\xBF") at_ = 3;
     latin1_ = !isUtf8(source_);
-    if (latin1_)
+    if (latin1_ && !declaresLatin1(source_))
         findings_.warn("xml.encoding", where(0),
                        "the document is not UTF-8; it is read as Latin-1");
 }

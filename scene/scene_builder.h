@@ -34,7 +34,7 @@ class SceneBuilder {
     /// What a group has had so far: the order matters to the older dialects.
     struct GroupState {
         std::set<std::string_view> transforms;
-        bool models = false, content = false, isRoot = false;
+        bool models = false, lights = false, content = false, isRoot = false;
     };
     using RootReader = void (SceneBuilder::*)(pugi::xml_node);
 
@@ -73,9 +73,10 @@ class SceneBuilder {
     std::optional<Transform> scaling(pugi::xml_node element);
     void models(pugi::xml_node element, Group& group, GroupState& state);
     void scatter(pugi::xml_node element, Group& group);
+    void tellSwapped(const Values& values, std::string_view least, std::string_view most);
 
     // Lights (build_light.cpp).
-    void lights(pugi::xml_node element, Group& group);
+    void lights(pugi::xml_node element, Group& group, GroupState& state);
     void light(pugi::xml_node element, Group& group);
     void lightDirection(pugi::xml_node element, const Values& values, Light& light, bool typed);
     void lightAttenuation(pugi::xml_node element, const Values& values, Light& light);
@@ -105,6 +106,9 @@ class SceneBuilder {
     template <class Each>
     void children(pugi::xml_node element, const ElementSpec& spec, Each each);
     void unknownChild(pugi::xml_node child, const ElementSpec& parent);
+    /// Warns where `canonical` is in `seen` already; for what may stand once in its parent.
+    void onlyOnce(std::string_view canonical, pugi::xml_node child,
+                  std::set<std::string_view>& seen);
     Location at(pugi::xml_node element) const { return document_.at(element); }
     Findings& findings() { return session_.findings; }
     /// The dialects whose groups have a fixed order.
@@ -114,6 +118,7 @@ class SceneBuilder {
     ReadSession& session_;
     Scene scene_;
     std::map<std::string, Color> colors_;
+    std::set<std::string_view> rootSeen_;
     int lightCount_ = 0;
 };
 

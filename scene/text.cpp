@@ -43,7 +43,8 @@ std::string didYouMean(const std::string& word, const std::vector<std::string>& 
     for (const std::string& one : candidates) {
         if (one.size() > kLongest) continue;
         const std::size_t edits = distance(wanted, lower(one));
-        if (edits < best) {
+        // Words of a letter or two are near everything: only a part kept counts as a likeness.
+        if (edits < best && 2 * edits <= word.size()) {
             best = edits;
             found = one;
         }

@@ -124,8 +124,11 @@ class AttributeReader {
     bool number(const AttributeSpec& row, Values::Entry& entry, std::string_view name) {
         const ParsedNumber parsed = parseNumber(entry.text);
         if (!parsed.problem.empty()) {
+            // The next attribute's "=" inside the value: a quote was forgotten before it.
+            const bool swallowed = entry.text.find('=') != std::string::npos;
             findings_.error("scene.number", entry.where,
-                            place(name) + ": " + quoted(entry.text) + " " + parsed.problem);
+                            place(name) + ": " + quoted(entry.text) + " " + parsed.problem +
+                                (swallowed ? "; is its closing quote missing?" : ""));
             return false;
         }
         entry.number = parsed.value;

@@ -82,7 +82,8 @@ Entry boxEntry() {
              {lengthArgument("X", "edge along X"), second, third,
               Argument{"DIV", true, 1, kMaxCount, "divisions a side", 1}},
              1,
-             false},
+             false,
+             {"cube"}},
             [](const Call& call, const std::string&, scene::UvLayout uv) {
                 const double x = call.length(0);
                 const glm::dvec3 size =

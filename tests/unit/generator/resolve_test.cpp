@@ -80,6 +80,17 @@ TEST_CASE("models are found in the bundle, in comments, in their names and built
              {{"teapot.3d", "", ""}, "", "patch teapot.patch", ""},
              {{"teapot.patch", "", ""}, "", "patch teapot.patch", ""},
              {{"own.patch", "", ""}, "own.patch", "patch own.patch", ""},
+             {{"bezier_own_2.3d", "", ""}, "own.patch", "patch own.patch 2", ""},
+             {{"bezier_teapot_3.3d", "", ""}, "", "patch teapot.patch 3", ""},
+             {{"teapot_patch_3.3d", "", ""}, "", "patch teapot.patch 3", ""},
+             {{"sphere_1.5_8_8", "", ""}, "", "sphere 1.5 8 8", ""},
+             {{"plane_2", "", ""}, "", "plane 2", ""},
+             {{"cube_2.3d", "", ""}, "", "box 2", ""},
+             {{"HAT.3D", "", "cone 1 2", {}, "hat.3d"}, "", "cone 1 2", ""},
+             {{"t.3d", "", "teapot.patch 3"}, "", "patch teapot.patch 3", ""},
+             {{"", "teapot 3", ""}, "", "patch teapot.patch 3", ""},
+             {{"", "bezier teapot 3", ""}, "", "patch teapot.patch 3", ""},
+             {{"", "generator sphere 1", ""}, "", "sphere 1", ""},
              {{"torus.3d", "", ""}, "", "torus 1 0.5", "shape.guessed"},
              {{"plane.3d", "", ""}, "", "plane 1", "shape.guessed"},
              {{"", "plane 4", ""}, "", "plane 4", ""},
@@ -99,10 +110,10 @@ TEST_CASE("models are found in the bundle, in comments, in their names and built
         CHECK(source.path == row.path);
         CHECK(source.words == words(row.shape));
         if (!row.warning.empty()) CHECK(result.has(row.warning, Severity::warning));
-        const bool patchFile = row.path == "own.patch";
+        const bool patchFile = row.setup.file == "own.patch";
         CHECK(
             result.has(file || patchFile ? "asset.from-file" : "asset.generated", Severity::info));
-        if (!patchFile)
+        if (row.path != "own.patch")  // which has no area
             CHECK(generator::load(result.model(), scene::BundleAssets(kBundle)).triangles() > 0);
     }
 }
@@ -117,6 +128,8 @@ TEST_CASE("models that cannot be had are errors at their place") {
              {{"modles/Shipp.3d", "", ""}, "asset.missing", "did you mean \"Ship.3d\""},
              {{"twin.3d", "", ""}, "asset.missing", "twin.3d"},
              {{"box_nt.3d", "", ""}, "asset.missing", "box_nt.3d"},
+             {{"box", "", ""}, "asset.missing", "box"},
+             {{"bezier_comet_2.3d", "", ""}, "asset.missing", "comet.patch"},
              {{"../../etc/passwd", "", ""}, "asset.missing", "passwd"},
              {{"sphere_1_2_8.3d", "", ""}, "shape.argument", "SLICES"},
              {{"c.3d", "", "cone 1 2 4"}, "", ""},

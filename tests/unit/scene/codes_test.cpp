@@ -196,6 +196,25 @@ TEST_CASE("oddities of scenes are told") {
         {world("^<point/>"), false, "scene.misplaced"},
         {world("^<camera/>"), false, "scene.missing-element"},
         {world("<window/>^<window/>"), false, "scene.duplicate-element"},
+        {"<world camX=\"1\">^<camera><position x=\"1\"/></camera></world>", false,
+         "scene.duplicate-element"},
+        {camera("<position x=\"1\"/>^<pos x=\"2\"/>"), false, "scene.duplicate-element"},
+        {world("<render aa=\"4\"/>^<render aa=\"1\"/>"), false, "scene.duplicate-element"},
+        {world("<lights/>^<lights/>"), false, "scene.duplicate-element"},
+        {model("<color><diffuse R=\"9\"/>^<diffuse R=\"8\"/></color>"), false,
+         "scene.duplicate-element"},
+        {model("<color/>^<color/>"), false, "scene.duplicate-element"},
+        // What is written into an element that holds nothing would be lost without a word.
+        {world("<lights><light type=\"point\">^<diffuse R=\"9\"/></light></lights>"), false,
+         "scene.misplaced"},
+        {transform("<rotate angle=\"9\" y=\"1\">^<axis/></rotate>"), false,
+         "scene.unknown-element"},
+        {model("<texture file=\"a.png\">^<texgen/></texture>"), false, "scene.misplaced"},
+        {group("<scatter count=\"3\" xzMin=\"^5\" xzMax=\"2\"/>"), false, "scene.swapped"},
+        {group("<models><model file=\"a\" rand=\"3\" yMinR=\"^5\" yMaxR=\"2\"/></models>"), false,
+         "scene.swapped"},
+        {"^<world/>", false, "scene.empty"},
+        {"^<world><group><models/></group></world>", false, "scene.empty"},
         {world("<lights>^<light posX=\"1\"/></lights>"), false, "scene.missing-attribute"},
         {world("<lights>^<light type=\"directional\" posX=\"1\"/></lights>"), false,
          "scene.missing-attribute"},
@@ -255,7 +274,13 @@ TEST_CASE("warnings are errors when strict") {
         REQUIRE_FALSE(outcome.diagnostics.empty());
         CHECK(outcome.diagnostics.front().severity == Severity::error);
     }
-    CHECK(tryRead(transform("<translate x=\"1\"/>"), strict).scene);
+    CHECK(tryRead(model("<texture file=\"t.png\"/>"), strict).scene);
+    CHECK(
+        tryRead("<?xml version=\"1.0\" encoding=\"ISO-8859-1\"?><!-- \xE9 -->" + model(""), strict)
+            .scene);
+    CHECK_FALSE(
+        tryRead("<?xml version=\"1.0\" encoding=\"utf-8\"?><!-- \xE9 -->" + model(""), strict)
+            .scene);
 }
 
 TEST_CASE("unknown names are told with the nearest known one") {
@@ -272,6 +297,17 @@ TEST_CASE("unknown names are told with the nearest known one") {
     CHECK_THAT(message(world("<point/>"), "scene.misplaced"), Catch::Contains("<translate>"));
     CHECK_THAT(message(transform("<translate x=\"1,5\"/>"), "scene.number"),
                Catch::Contains("1.5"));
+    CHECK_THAT(message(transform("<translate x=\"1 y=\"2\"/>"), "scene.number"),
+               Catch::Contains("closing quote"));
+    CHECK_THAT(message(scene2020("<models><model command=\"box 1\" diffuse=\"C\"/></models>"),
+                       "scene.unknown-color"),
+               Catch::Contains("\"c\""));
+    CHECK_THAT(
+        message(scene2017("<models><model file=\"a\" rand=\"-1\"/></models>"), "scene.range"),
+        Catch::EndsWith("0 to 100000"));
+    // A letter is near every other letter: that is no help.
+    CHECK_THAT(message(light("type=\"point\" R=\"1\""), "scene.unknown-attribute"),
+               !Catch::Contains("did you mean"));
 }
 
 TEST_CASE("a refused document tells all that was found") {

@@ -59,6 +59,18 @@ void addServe(CLI::App& root, Action& action) {
     add("--max-connections", options->listen.maxConnections, "clients at once", 1, 100'000);
     addSeconds(*command, "--keep-alive", options->listen.keepAlive,
                "how long a connection may be idle, s");
+    addSeconds(*command, "--head-timeout", options->listen.timeouts.head,
+               "how long the head of a request may take to arrive, s");
+    addSeconds(*command, "--body-timeout", options->listen.timeouts.body,
+               "how long the body of a request may take to arrive, s");
+    addSeconds(*command, "--write-timeout", options->listen.timeouts.write,
+               "how long a client may take to read an answer, s");
+    add("--buffer-bytes", options->listen.bufferBytes,
+        "memory for requests that arrive and answers that are read slowly, bytes; beyond, the "
+        "slowest clients are dropped",
+        65'536, 1LL << 40U);
+    addSeconds(*command, "--grace", options->listen.timeouts.grace,
+               "how long requests that have begun may take once the service is told to end, s");
     command
         ->add_option("--cors", options->corsOrigin,
                      "origin whose pages may call the service, or *; default none")

@@ -73,7 +73,8 @@ void Metrics::write(std::string& out, const std::string& name, const std::string
 }
 
 std::string Metrics::text(const BackendState& backend, PictureCache::Counts pictures, bool storeUp,
-                          const std::string& version, const std::string& renderer) const {
+                          const http::Traffic& traffic, const std::string& version,
+                          const std::string& renderer) const {
     std::string out;
     const std::lock_guard lock(mutex_);
     head(out, "farol_http_requests_total", "counter", "Requests answered.");
@@ -110,6 +111,26 @@ std::string Metrics::text(const BackendState& backend, PictureCache::Counts pict
          static_cast<double>(pictures.hits));
     line(out, "farol_cache_requests_total{cache=\"picture\",result=\"miss\"}",
          static_cast<double>(pictures.misses));
+    head(out, "farol_http_connections", "gauge", "Connections, by what they do.");
+    const auto labelled = [&](const std::string& name, const std::string& label, long value) {
+        line(out, name + "{" + label + "}", static_cast<double>(value));
+    };
+    const std::string now = "farol_http_connections";
+    labelled(now, R"(state="idle")", traffic.idle);
+    labelled(now, R"(state="receiving")", traffic.receiving);
+    labelled(now, R"(state="active")", traffic.active);
+    labelled(now, R"(state="sending")", traffic.sending);
+    head(out, "farol_http_connections_closed_total", "counter",
+         "Connections ended by the service, by what the client did or what was full.");
+    const std::string closed = "farol_http_connections_closed_total";
+    labelled(closed, R"(reason="slow_head")", traffic.slowHead);
+    labelled(closed, R"(reason="slow_body")", traffic.slowBody);
+    labelled(closed, R"(reason="slow_reader")", traffic.slowReader);
+    labelled(closed, R"(reason="buffers_full")", traffic.memory);
+    labelled(closed, R"(reason="connections_full")", traffic.full);
+    head(out, "farol_http_buffered_bytes", "gauge",
+         "Of requests that arrive and answers that wait for their clients.");
+    line(out, "farol_http_buffered_bytes", static_cast<double>(traffic.bufferedBytes));
     head(out, "farol_store_up", "gauge", "Whether the store of uploads could be asked last time.");
     line(out, "farol_store_up", storeUp ? 1 : 0);
     head(out, "farol_build_info", "gauge", "What is running.");

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "server/backend.h"
+#include "server/http/traffic.h"
 #include "server/picture_cache.h"
 
 namespace farol::server {
@@ -20,7 +21,8 @@ class Metrics {
     /// `stage` as in Server-Timing.
     void stage(const std::string& stage, double milliseconds);
     std::string text(const BackendState& backend, PictureCache::Counts pictures, bool storeUp,
-                     const std::string& version, const std::string& renderer) const;
+                     const http::Traffic& traffic, const std::string& version,
+                     const std::string& renderer) const;
 
   private:
     static constexpr std::array<double, 13> kBoundsS{0.001, 0.0025, 0.005, 0.01, 0.025, 0.05, 0.1,

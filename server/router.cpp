@@ -53,6 +53,13 @@ http::Response Router::route(const http::Request& request, http::Body& body) con
     return response;
 }
 
+const Route* Router::find(const http::Request& request) const {
+    const std::string pattern = patternOf(request.path);
+    for (const Route& route : routes_)
+        if (route.pattern == pattern && route.method == request.method) return &route;
+    return nullptr;
+}
+
 std::string Router::allowed(const std::string& path) const {
     std::string out;
     const std::string* known = nullptr;

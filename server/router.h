@@ -21,6 +21,7 @@ struct Route {
     std::string method;
     std::string pattern;  ///< "/v1/scenes/{id}/image"; {id} may span several segments
     std::function<http::Response(const Call&)> handle;
+    bool isWriting = false;  ///< what is kept is changed: the token is needed, where one is set
 };
 
 class Router {
@@ -30,6 +31,9 @@ class Router {
     /// Runs the route's handler. Throws Error http.not-found or http.method (then `allowed` of
     /// the path is not empty), and what the handler throws. OPTIONS is answered for every path.
     http::Response route(const http::Request& request, http::Body& body) const;
+
+    /// The route that answers the request, or null.
+    const Route* find(const http::Request& request) const;
 
     /// The methods that a path answers, HEAD and OPTIONS included: "GET, HEAD, OPTIONS".
     std::string allowed(const std::string& path) const;

@@ -55,9 +55,9 @@ scene::Bundle bundleOf(const render::Job& job) {
 
 }  // namespace
 
-void Service::authorize(const Call& call) const {
+void Service::authorize(const http::Request& request) const {
     if (options_.token.empty()) return;
-    const auto given = bearerOf(call.request);
+    const auto given = bearerOf(request);
     if (!given || !sameSecret(*given, options_.token))
         throw Error("http.unauthorized", given ? "The token is not the right one."
                                                : "This needs \"Authorization: Bearer TOKEN\".");
@@ -73,7 +73,6 @@ Upload Service::takeUpload(const Call& call, const std::string& base) const {
 }
 
 http::Response Service::postScene(const Call& call) {
-    authorize(call);
     const Parameters wanted =
         readParameters(call.request.query, {false, true, {"public", "base"}, {}});
     const bool listed = wholeNumber("public", wanted.ownValue("public", "0"), 0, 1) == 1;
@@ -104,7 +103,6 @@ http::Response Service::postScene(const Call& call) {
 }
 
 http::Response Service::deleteScene(const Call& call) {
-    authorize(call);
     readParameters(call.request.query, {});
     if (!store::isStoredId(call.parameter)) {
         sceneOf(call.parameter);  // or it is a 404

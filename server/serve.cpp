@@ -28,6 +28,7 @@ void checkOptions(const ServeOptions& options) {
     range("port", options.listen.port, 0, 65535);
     range("threads", options.listen.threads, 1, 1024);
     range("max-connections", options.listen.maxConnections, 1, 100'000);
+    range("buffer-bytes", static_cast<long>(options.listen.bufferBytes), 65'536, 1L << 40U);
     range("workers", options.workers, 0, 64);
     range("spares", options.spares, 0, 64);
     range("recycle", options.recycleAfter, 1, 1'000'000);

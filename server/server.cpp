@@ -6,7 +6,9 @@ Server::Server(const http::ListenOptions& listen, ServiceOptions service, Backen
                Logger::Sink log)
     : logger_(std::move(log)),
       service_(std::move(service), backend, logger_),
-      listener_(listen, service_) {}
+      listener_(listen, service_) {
+    service_.watch([this] { return listener_.traffic(); });
+}
 
 Server::~Server() { stop(); }
 

@@ -67,9 +67,9 @@ std::vector<Route> Service::routes() {
         {"POST", "/v1/compare", call(&Service::postCompare)},
         {"POST", "/v1/grade", call(&Service::postGrade)},
         {"GET", "/v1/scenes", call(&Service::listScenes)},
-        {"POST", "/v1/scenes", call(&Service::postScene)},
+        {"POST", "/v1/scenes", call(&Service::postScene), true},
         {"GET", "/v1/scenes/{id}", call(&Service::getScene)},
-        {"DELETE", "/v1/scenes/{id}", call(&Service::deleteScene)},
+        {"DELETE", "/v1/scenes/{id}", call(&Service::deleteScene), true},
         {"GET", "/v1/scenes/{id}/source", call(&Service::getSource)},
         {"GET", "/v1/scenes/{id}/models", call(&Service::getModels)},
         {"GET", "/v1/scenes/{id}/turntable", call(&Service::getTurntable)},
@@ -81,11 +81,24 @@ std::vector<Route> Service::routes() {
     };
 }
 
+std::size_t Service::bodyLimit(const http::Request& request) const {
+    const Route* route = router_.find(request);
+    if (route == nullptr) return 0;
+    try {
+        if (route->isWriting) authorize(request);
+    } catch (const Error&) {
+        return 0;
+    }
+    return options_.maxBodyBytes;
+}
+
 http::Response Service::handle(const http::Request& request, http::Body& body) {
     http::Response response;
     try {
         if (limiter_.isOn() && request.path.starts_with("/v1/"))
             limiter_.admit(clientOf(request, options_.rate.trustProxy));
+        if (const Route* route = router_.find(request); route != nullptr && route->isWriting)
+            authorize(request);
         response = router_.route(request, body);
     } catch (const Error& error) {
         Problem problem = problemOf(error);
@@ -194,7 +207,8 @@ http::Response Service::metrics(const Call& call) {
     http::Response response;
     response.contentType = "text/plain; version=0.0.4; charset=utf-8";
     response.body = metrics_.text(backend_.state(), pictures_.counts(), store_->isReachable(),
-                                  projectVersion(), backend_.version());
+                                  traffic_ ? traffic_() : http::Traffic{}, projectVersion(),
+                                  backend_.version());
     response.set("Cache-Control", "no-store");
     return response;
 }

@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -9,6 +10,7 @@
 
 #include "server/backend.h"
 #include "server/http/message.h"
+#include "server/http/traffic.h"
 #include "server/log.h"
 #include "server/metrics.h"
 #include "server/parameters.h"
@@ -36,6 +38,7 @@ class Service final : public http::Handler {
   public:
     Service(ServiceOptions options, Backend& backend, Logger& logger);
 
+    std::size_t bodyLimit(const http::Request& request) const override;
     http::Response handle(const http::Request& request, http::Body& body) override;
     http::Response refuse(const http::Request& request, int status, const std::string& code,
                           const std::string& message) override;
@@ -44,6 +47,8 @@ class Service final : public http::Handler {
 
     /// Readiness turns false; requests are still answered.
     void drain() { draining_ = true; }
+    /// Where the metrics learn of connections. Call it before the first request.
+    void watch(std::function<http::Traffic()> traffic) { traffic_ = std::move(traffic); }
     const Router& router() const { return router_; }
 
   private:
@@ -81,7 +86,7 @@ class Service final : public http::Handler {
     ServedScene sceneOf(const std::string& id) const;
     render::Job jobOfScene(const ServedScene& scene) const;
     Upload takeUpload(const Call& call, const std::string& base) const;
-    void authorize(const Call& call) const;
+    void authorize(const http::Request& request) const;
     bool isFound(const ServedScene& scene, const std::string& words);
     std::shared_ptr<const Known> known(const ServedScene& scene);
     void remember(const std::string& id, std::shared_ptr<const Known> facts);
@@ -95,6 +100,7 @@ class Service final : public http::Handler {
     std::atomic<std::chrono::steady_clock::rep> swept_{0};  ///< when the store last expired scenes
     Backend& backend_;
     Logger& logger_;
+    std::function<http::Traffic()> traffic_;
     Metrics metrics_;
     PictureCache pictures_;
     RateLimiter limiter_;

@@ -9,8 +9,6 @@
 #include <random>
 
 #include "scene/error.h"
-#include "server/http/head.h"
-#include "server/http/socket_stream.h"
 
 namespace farol::server::http {
 namespace {
@@ -44,41 +42,88 @@ std::string headerValue(const std::string& value) {
     return std::string(value.begin(), end);
 }
 
+/// What the library reads is the cleaned head, what it writes goes to the link.
+class Exchange final : public httplib::Stream {
+  public:
+    Exchange(Link& link, std::string head) : link_(link), head_(std::move(head)) {}
+
+    bool is_readable() const override { return taken_ < head_.size(); }
+    bool is_writable() const override { return !link_.isBroken(); }
+    ssize_t read(char* target, size_t size) override {
+        const std::size_t count = head_.copy(target, size, taken_);
+        taken_ += count;
+        return static_cast<ssize_t>(count);
+    }
+    ssize_t write(const char* source, size_t size) override {
+        link_.put({source, size});
+        return link_.isBroken() ? -1 : static_cast<ssize_t>(size);
+    }
+    // The peer's address is taken from the socket when it is accepted, not here.
+    void get_remote_ip_and_port(std::string& ip, int& port) const override { none(ip, port); }
+    void get_local_ip_and_port(std::string& ip, int& port) const override { none(ip, port); }
+    /// Only compared with FD_SETSIZE by the library, which matters to select() and not to us.
+    socket_t socket() const override { return 0; }
+
+    // Newer releases of the library ask for these; in older ones they override nothing.
+    bool wait_readable() const { return is_readable(); }
+    bool wait_writable() const { return is_writable(); }
+    time_t duration() const { return 0; }
+
+  private:
+    static void none(std::string& ip, int& port) {
+        ip.clear();
+        port = 0;
+    }
+
+    Link& link_;
+    const std::string head_;
+    std::size_t taken_ = 0;
+};
+
+/// A body that has arrived, as far as it did.
+class Arrived final : public Body {
+  public:
+    explicit Arrived(Incoming& incoming) : incoming_(incoming) {}
+
+    std::string read(std::size_t maxBytes) override {
+        using State = BodyReader::State;
+        const State state = std::exchange(incoming_.bodyState, State::broken);
+        if (state == State::tooLarge || incoming_.body.size() > maxBytes)
+            throw Error("limit.body",
+                        "The body is larger than " + std::to_string(maxBytes) + " bytes.");
+        if (state != State::whole)
+            throw Error("http.body", "The body did not arrive as it was announced.");
+        return std::move(incoming_.body);
+    }
+
+  private:
+    Incoming& incoming_;
+};
+
 }  // namespace
 
-/// The library's server without its sockets: it parses a head that head.cpp has checked, frames
-/// the body and writes the answer; everything between is one Handler.
+/// The library's server without its sockets: it parses a head that head.cpp has checked and writes
+/// the answer; everything between is one Handler. It never sees a body.
 class Connection::Parser final : public httplib::Server {
   public:
-    Parser(http::Handler& handler, Timeouts timeouts) : handler_(handler), timeouts_(timeouts) {
+    explicit Parser(http::Handler& handler) : handler_(handler) {
         set_pre_routing_handler([this](const httplib::Request&, httplib::Response& out) {
-            if (const auto& refusal = head_->refusal) {
-                answer(handler_.refuse(head_->request, refusal->status, refusal->code,
-                                       refusal->message),
-                       out);
-                return HandlerResponse::Handled;
-            }
-            if (head_->mayHaveBody()) return HandlerResponse::Unhandled;
-            BodyOf none(*this, nullptr);
-            answer(handler_.handle(head_->request, none), out);
+            const Head& head = incoming_->head;
+            Arrived body(*incoming_);
+            if (const auto& refusal = head.refusal)
+                answer(
+                    handler_.refuse(head.request, refusal->status, refusal->code, refusal->message),
+                    out);
+            else
+                answer(handler_.handle(head.request, body), out);
             return HandlerResponse::Handled;
         });
-        const HandlerWithContentReader withBody = [this](const httplib::Request&,
-                                                         httplib::Response& out,
-                                                         const httplib::ContentReader& reader) {
-            BodyOf body(*this, &reader);
-            answer(handler_.handle(head_->request, body), out);
-        };
-        Post("/", withBody);
-        Put("/", withBody);
-        Patch("/", withBody);
-        Delete("/", withBody);
         set_error_handler(
             HandlerWithResponse([this](const httplib::Request&, httplib::Response& out) {
                 if (answered_) return HandlerResponse::Unhandled;
                 keep_ = false;
                 const int status = out.status;
-                answer(handler_.refuse(head_->request, status, "http.syntax",
+                answer(handler_.refuse(incoming_->head.request, status, "http.syntax",
                                        "The request could not be read."),
                        out);
                 return HandlerResponse::Handled;
@@ -86,7 +131,7 @@ class Connection::Parser final : public httplib::Server {
         set_exception_handler(
             [this](const httplib::Request&, httplib::Response& out, std::exception_ptr) {
                 keep_ = false;
-                answer(handler_.refuse(head_->request, 500, "internal",
+                answer(handler_.refuse(incoming_->head.request, 500, "internal",
                                        "The server met an error of its own."),
                        out);
             });
@@ -98,126 +143,43 @@ class Connection::Parser final : public httplib::Server {
         });
     }
 
-    bool serve(int fd, const std::string& remoteAddress, const std::function<bool()>& closing) {
-        SocketStream stream(fd);
-        stream_ = &stream;
-        // The listener waits for a whole head, so the first is there or came too late; of a second
-        // one behind it a part may still be under way.
-        auto patience = std::chrono::milliseconds(0);
-        do {
-            std::string text;
-            const auto got = stream.readHead(kMaxHead, Clock::now() + patience, text);
-            patience = kFollowing;
-            if (got == SocketStream::HeadResult::closed) return false;
-            Head head = checkHead(text);
-            if (got == SocketStream::HeadResult::tooLarge)
-                head.refusal = text.find("\r\n") == std::string::npos
-                                   ? Refusal{414, "http.uri-too-long", "The address is too long."}
-                                   : Refusal{431, "http.head", "The headers are too large."};
-            if (got == SocketStream::HeadResult::timedOut)
-                head.refusal = Refusal{408, "http.timeout", "The request took too long to arrive."};
-            head.request.remoteAddress = remoteAddress;
-            if (head.request.id.empty()) head.request.id = newRequestId();
-            exchange(stream, head, closing);
-        } while (keep_ && stream.hasBuffered());
-        if (!keep_ && (unread_ || stream.hasBuffered()))
-            stream.finish(kLingerBytes, Clock::now() + timeouts_.linger);
-        return keep_;
+    Answered serve(Link& link, Incoming incoming, const std::atomic<bool>& isClosing) {
+        incoming_ = &incoming;
+        isClosing_ = &isClosing;
+        Head& head = incoming.head;
+        if (head.request.id.empty()) head.request.id = newRequestId();
+        answered_ = false;
+        // What of the body is still under way must not be read as the next request.
+        isCut_ = incoming.bodyState != BodyReader::State::whole ||
+                 (head.hasBody() && !head.mayHaveBody());
+        keep_ = head.keepAlive && !isCut_ && !head.refusal;
+        // In place of a request that the library must not see it is shown a plain one.
+        Exchange stream(link, !head.refusal ? std::move(head.cleaned)
+                              : head.isHead ? "HEAD / HTTP/1.1\r\n\r\n"
+                                            : "GET / HTTP/1.1\r\n\r\n");
+        bool closed = false;
+        const bool written = process(stream, closed);
+        link.flush();
+        incoming_ = nullptr;
+        return {std::move(head.request), std::move(last_), incoming.since, keep_ && written,
+                isCut_ || head.refusal};
     }
 
   private:
-    static constexpr std::size_t kLingerBytes = 64U << 20;
-    static constexpr std::chrono::milliseconds kFollowing{500};
-
-    /// The body behind the library's reader; stops at the bound instead of reading on.
-    class BodyOf final : public Body {
-      public:
-        BodyOf(Parser& parser, const httplib::ContentReader* reader)
-            : parser_(parser), reader_(reader) {}
-
-        std::string read(std::size_t maxBytes) override {
-            const Head& head = *parser_.head_;
-            std::string bytes;
-            if (reader_ == nullptr || !head.hasBody()) return bytes;
-            const auto tooLarge = [&] {
-                return Error("limit.body",
-                             "The body is larger than " + std::to_string(maxBytes) + " bytes.");
-            };
-            if (head.contentLength.value_or(0) > maxBytes) throw tooLarge();
-            if (head.expectsContinue) parser_.sayContinue();
-            bytes.reserve(static_cast<std::size_t>(head.contentLength.value_or(0)));
-            bool over = false;
-            const bool complete = (*reader_)([&](const char* data, std::size_t size) {
-                over = size > maxBytes - bytes.size();
-                if (!over) bytes.append(data, size);
-                return !over;
-            });
-            if (over) throw tooLarge();
-            if (!complete || (head.contentLength && bytes.size() != *head.contentLength))
-                throw Error("http.body", "The body did not arrive as it was announced.");
-            parser_.bodyRead_ = true;
-            return bytes;
-        }
-
-      private:
-        Parser& parser_;
-        const httplib::ContentReader* reader_;
-    };
-
-    void sayContinue() {
-        static constexpr std::string_view kText = "HTTP/1.1 100 Continue\r\n\r\n";
-        stream_->write(kText.data(), kText.size());
-    }
-
-    void exchange(SocketStream& stream, Head& head, const std::function<bool()>& closing) {
-        const auto start = Clock::now();
-        head_ = &head;
-        closing_ = &closing;
-        answered_ = false;
-        bodyRead_ = false;
-        unread_ = false;
-        keep_ = head.keepAlive;
-        const auto readUntil = start + timeouts_.body;
-        stream.setReadDeadline(readUntil);
-        stream.setWriteDeadline(start + timeouts_.body + timeouts_.write);
-        if (head.refusal) {
-            keep_ = false;
-            unread_ = true;
-            // The library is shown a plain request in place of the one it must not see.
-            stream.prepend(head.isHead ? "HEAD / HTTP/1.1\r\n\r\n" : "GET / HTTP/1.1\r\n\r\n");
-        } else {
-            stream.prepend(head.cleaned);
-        }
-        bool closed = false;
-        const bool sent = process(stream, closed, [&](httplib::Request& request) {
-            request.path = "/";  // routing is not the library's
-            stream.setWriteDeadline(Clock::now() + timeouts_.body + timeouts_.write);
-        });
-        unread_ = unread_ || (head.hasBody() && !bodyRead_);
-        handler_.finished(head.request, last_,
-                          std::chrono::duration<double, std::milli>(Clock::now() - start).count(),
-                          sent);
-        last_ = Response{};
-        if (!sent) keep_ = false;
-        head_ = nullptr;
-    }
-
     // Newer releases take the addresses of both ends as well.
     template <typename Stream>
-    bool process(Stream& stream, bool& closed, const std::function<void(httplib::Request&)>& set) {
-        if constexpr (requires { this->process_request(stream, false, closed, set); })
-            return this->process_request(stream, false, closed, set);
+    bool process(Stream& stream, bool& closed) {
+        const auto untouched = [](httplib::Request& request) { request.path = "/"; };
+        if constexpr (requires { this->process_request(stream, false, closed, untouched); })
+            return this->process_request(stream, false, closed, untouched);
         else
             return this->process_request(stream, std::string(), 0, std::string(), 0, false, closed,
-                                         set);
+                                         untouched);
     }
 
     void answer(Response response, httplib::Response& out) {
-        const Head& head = *head_;
         answered_ = true;
-        // Whatever of this request may still be in the socket must not be read as the next one.
-        if (response.status >= 400 || (head.hasBody() && !bodyRead_) || (*closing_)())
-            keep_ = false;
+        if (response.status >= 400 || *isClosing_) keep_ = false;
         out.headers.clear();
         out.status = response.status;
         for (const auto& [name, value] : response.headers)
@@ -229,26 +191,21 @@ class Connection::Parser final : public httplib::Server {
         response.set("Content-Length", std::to_string(out.body.size()));
         response.body.clear();
         last_ = std::move(response);
-        stream_->setWriteDeadline(Clock::now() + timeouts_.write);
     }
 
     http::Handler& handler_;
-    Timeouts timeouts_;
-    SocketStream* stream_ = nullptr;
-    const Head* head_ = nullptr;
-    const std::function<bool()>* closing_ = nullptr;
+    Incoming* incoming_ = nullptr;
+    const std::atomic<bool>* isClosing_ = nullptr;
     Response last_;
-    bool answered_ = false, bodyRead_ = false, unread_ = false, keep_ = true;
+    bool answered_ = false, isCut_ = false, keep_ = true;
 };
 
-Connection::Connection(Handler& handler, Timeouts timeouts)
-    : parser_(std::make_unique<Parser>(handler, timeouts)) {}
+Connection::Connection(Handler& handler) : parser_(std::make_unique<Parser>(handler)) {}
 
 Connection::~Connection() = default;
 
-bool Connection::serve(int fd, const std::string& remoteAddress,
-                       const std::function<bool()>& closing) {
-    return parser_->serve(fd, remoteAddress, closing);
+Answered Connection::answer(Link& link, Incoming incoming, const std::atomic<bool>& isClosing) {
+    return parser_->serve(link, std::move(incoming), isClosing);
 }
 
 }  // namespace farol::server::http

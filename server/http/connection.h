@@ -1,32 +1,34 @@
 #pragma once
 
-#include <chrono>
-#include <functional>
+#include <atomic>
 #include <memory>
-#include <string>
 
+#include "server/http/arrival.h"
+#include "server/http/link.h"
 #include "server/http/message.h"
 
 namespace farol::server::http {
 
-/// How long a client may take. All are wall-clock bounds on the whole step, not on one read.
-struct Timeouts {
-    std::chrono::milliseconds head{10'000};  ///< from its first byte to its blank line
-    std::chrono::milliseconds body{30'000};
-    std::chrono::milliseconds write{30'000};
-    std::chrono::milliseconds linger{1'000};  ///< after an answer that ends the connection
+/// A request whose answer is on its way to the client.
+struct Answered {
+    Request request;
+    Response response;  ///< without its body
+    Clock::time_point since;
+    bool keep = false;   ///< the connection may be kept for the next request
+    bool isCut = false;  ///< more of this one may still come: to be taken, and left
 };
 
-/// Serves the requests of one connection at a time: one object a thread. The HTTP library stays
-/// behind this header.
+/// Answers one request after another: one object a thread. The HTTP library stays behind this
+/// header.
 class Connection {
   public:
-    Connection(Handler& handler, Timeouts timeouts);
+    explicit Connection(Handler& handler);
     ~Connection();
 
-    /// Serves the requests that have arrived on the socket, whole or too late. True: the connection
-    /// may be kept for the next one. `closing` is asked after each answer.
-    bool serve(int fd, const std::string& remoteAddress, const std::function<bool()>& closing);
+    /// Has the handler answer and puts the answer on the link, which is sent as far as the client
+    /// takes it now. `isClosing` turns true when the client is to be told that no other request
+    /// will be answered.
+    Answered answer(Link& link, Incoming incoming, const std::atomic<bool>& isClosing);
 
   private:
     class Parser;

@@ -1,88 +1,39 @@
 #include "server/http/listener.h"
 
-#include <arpa/inet.h>
-#include <netdb.h>
-#include <netinet/in.h>
-#include <netinet/tcp.h>
 #include <poll.h>
 #include <sys/epoll.h>
 #include <sys/eventfd.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
-#include <memory>
 #include <stdexcept>
 #include <string_view>
 #include <system_error>
 
-#include "server/http/head.h"
+#include "server/http/socket.h"
 
 namespace farol::server::http {
 namespace {
 
-constexpr int kBacklog = 511;
-constexpr int kSweepMs = 500;
+constexpr int kLookMs = 250;
+constexpr std::chrono::milliseconds kSweep{100};
 constexpr int kNextMs = 2;
-
-std::string errnoText(int code) { return std::generic_category().message(code); }
-
-int bindTo(const std::string& host, int port) {
-    addrinfo hints{};
-    hints.ai_socktype = SOCK_STREAM;
-    hints.ai_flags = AI_PASSIVE | AI_NUMERICSERV;
-    addrinfo* found = nullptr;
-    const std::string at = host + ":" + std::to_string(port);
-    const int fault = ::getaddrinfo(host.empty() ? nullptr : host.c_str(),
-                                    std::to_string(port).c_str(), &hints, &found);
-    if (fault != 0)
-        throw std::runtime_error("cannot listen on " + at + ": " + ::gai_strerror(fault));
-    const std::unique_ptr<addrinfo, void (*)(addrinfo*)> owner(found, ::freeaddrinfo);
-    int lastError = EADDRNOTAVAIL;
-    for (const addrinfo* one = found; one != nullptr; one = one->ai_next) {
-        const int fd = ::socket(one->ai_family, one->ai_socktype | SOCK_NONBLOCK | SOCK_CLOEXEC,
-                                one->ai_protocol);
-        if (fd < 0) {
-            lastError = errno;
-            continue;
-        }
-        const int yes = 1;
-        // Not SO_REUSEPORT, the library's own choice: a second server would share the port in
-        // silence.
-        ::setsockopt(fd, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
-        if (::bind(fd, one->ai_addr, one->ai_addrlen) == 0 && ::listen(fd, kBacklog) == 0)
-            return fd;
-        lastError = errno;
-        ::close(fd);
-    }
-    throw std::runtime_error("cannot listen on " + at + ": " + errnoText(lastError));
-}
-
-int portOf(int fd) {
-    sockaddr_storage address{};
-    socklen_t size = sizeof address;
-    ::getsockname(fd, reinterpret_cast<sockaddr*>(&address), &size);
-    if (address.ss_family == AF_INET6)
-        return ntohs(reinterpret_cast<const sockaddr_in6*>(&address)->sin6_port);
-    return ntohs(reinterpret_cast<const sockaddr_in*>(&address)->sin_port);
-}
-
-std::string addressText(const sockaddr_storage& address) {
-    std::array<char, INET6_ADDRSTRLEN> text{};
-    const void* source =
-        address.ss_family == AF_INET6
-            ? static_cast<const void*>(&reinterpret_cast<const sockaddr_in6*>(&address)->sin6_addr)
-            : static_cast<const void*>(&reinterpret_cast<const sockaddr_in*>(&address)->sin_addr);
-    if (::inet_ntop(address.ss_family, source, text.data(), text.size()) == nullptr) return "";
-    return text.data();
-}
+// Reads of one connection before others have their turn: a megabyte.
+constexpr int kReads = 16;
+constexpr std::size_t kLingerBytes = std::size_t{64} << 20U;
+constexpr std::string_view kContinue = "HTTP/1.1 100 Continue\r\n\r\n";
+constexpr std::string_view kFull =
+    "HTTP/1.1 503 Service Unavailable\r\nRetry-After: 1\r\nConnection: close\r\n"
+    "Content-Length: 0\r\n\r\n";
 
 }  // namespace
 
 Listener::Listener(const ListenOptions& options, Handler& handler)
     : options_(options), handler_(handler) {
-    listenFd_ = bindTo(options.host, options.port);
+    listenFd_ = listenOn(options.host, options.port);
     port_ = portOf(listenFd_);
     epollFd_ = ::epoll_create1(EPOLL_CLOEXEC);
     wakeFd_ = ::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
@@ -90,7 +41,7 @@ Listener::Listener(const ListenOptions& options, Handler& handler)
         const int fault = errno;
         for (const int fd : {listenFd_, epollFd_, wakeFd_})
             if (fd >= 0) ::close(fd);
-        throw std::runtime_error("cannot watch sockets: " + errnoText(fault));
+        throw std::runtime_error("cannot watch sockets: " + std::generic_category().message(fault));
     }
     for (const int fd : {listenFd_, wakeFd_}) {
         epoll_event event{};
@@ -108,14 +59,13 @@ Listener::~Listener() {
 
 void Listener::start() {
     for (int i = 0; i < options_.threads; ++i) threads_.emplace_back([this] { serveLoop(); });
-    acceptor_ = std::thread([this] { acceptLoop(); });
+    mover_ = std::thread([this] { moveLoop(); });
 }
 
 void Listener::stop() {
     stopping_ = true;
-    const std::uint64_t one = 1;
-    if (::write(wakeFd_, &one, sizeof one) < 0 && errno != EAGAIN) return;
-    if (acceptor_.joinable()) acceptor_.join();
+    wake();
+    if (mover_.joinable()) mover_.join();
     {
         const std::lock_guard lock(mutex_);
         ended_ = true;
@@ -123,191 +73,349 @@ void Listener::stop() {
     ready_.notify_all();
     for (std::thread& thread : threads_) thread.join();
     threads_.clear();
-    dropAll();
+    const std::lock_guard lock(mutex_);
+    for (const auto& [fd, client] : clients_) ::close(fd);
+    clients_.clear();
 }
 
-void Listener::acceptLoop() {
+void Listener::wake() const {
+    const std::uint64_t one = 1;
+    // It is full only when it has been written to and not been read: awake already.
+    if (::write(wakeFd_, &one, sizeof one) < 0) return;
+}
+
+Traffic Listener::traffic() const {
+    const std::lock_guard lock(mutex_);
+    Traffic now = closed_;
+    now.bufferedBytes = buffered_;
+    for (const auto& [fd, client] : clients_) {
+        switch (client->phase) {
+            case Phase::idle:
+                ++now.idle;
+                break;
+            case Phase::receiving:
+                ++now.receiving;
+                break;
+            case Phase::active:
+                ++now.active;
+                break;
+            case Phase::sending:
+            case Phase::lingering:
+                ++now.sending;
+                break;
+        }
+    }
+    return now;
+}
+
+// ---- The thread that moves bytes
+
+void Listener::moveLoop() {
     std::array<epoll_event, 64> events;
-    while (!stopping_) {
+    Clock::time_point stoppedAt{};
+    while (!stopping_ || !isOver(stoppedAt)) {
         const int count =
-            ::epoll_wait(epollFd_, events.data(), static_cast<int>(events.size()), kSweepMs);
+            ::epoll_wait(epollFd_, events.data(), static_cast<int>(events.size()), kLookMs);
         for (int i = 0; i < count; ++i) {
             const int fd = events[static_cast<std::size_t>(i)].data.fd;
-            if (fd == listenFd_)
+            if (fd == wakeFd_) {
+                std::uint64_t times = 0;
+                if (::read(wakeFd_, &times, sizeof times) < 0) continue;
+            } else if (fd == listenFd_) {
                 acceptAll();
-            else if (fd != wakeFd_)
-                look(fd, (events[static_cast<std::size_t>(i)].events & ~EPOLLIN) != 0);
+            } else {
+                look(fd);
+            }
         }
         sweep();
+        relieve();
+        if (stopping_ && listenFd_ >= 0) {
+            // From here on clients are refused by the kernel and may try elsewhere.
+            ::close(listenFd_);
+            listenFd_ = -1;
+            stoppedAt = Clock::now();
+        }
     }
-    // From here on clients are refused by the kernel and may try elsewhere.
-    ::close(listenFd_);
-    listenFd_ = -1;
+}
+
+// Requests of which the head has come are still answered, and answers leave.
+bool Listener::isOver(Clock::time_point stoppedAt) {
+    if (listenFd_ >= 0) return false;
+    std::vector<Client*> idle;
+    {
+        const std::lock_guard lock(mutex_);
+        for (const auto& [fd, client] : clients_)
+            if (client->phase == Phase::idle || (client->phase == Phase::receiving &&
+                                                 client->arrival.state() == Arrival::State::head))
+                idle.push_back(client.get());
+    }
+    for (Client* client : idle) drop(*client);
+    const std::lock_guard lock(mutex_);
+    return clients_.empty() || Clock::now() - stoppedAt > options_.timeouts.grace;
 }
 
 void Listener::acceptAll() {
     for (;;) {
-        sockaddr_storage address{};
-        socklen_t size = sizeof address;
-        const int fd = ::accept4(listenFd_, reinterpret_cast<sockaddr*>(&address), &size,
-                                 SOCK_NONBLOCK | SOCK_CLOEXEC);
+        std::string address;
+        const int fd = acceptFrom(listenFd_, address);
         if (fd < 0) {
             if (errno == EINTR || errno == ECONNABORTED) continue;
             // Out of descriptors: those in use must come back first; do not spin on the event.
             if (errno != EAGAIN) std::this_thread::sleep_for(std::chrono::milliseconds(10));
             return;
         }
-        const int yes = 1;
-        ::setsockopt(fd, IPPROTO_TCP, TCP_NODELAY, &yes, sizeof yes);
-        bool full = false;
+        auto client = std::make_unique<Client>(fd, handler_, std::move(address));
+        client->since = Clock::now();
+        client->until = client->since + options_.keepAlive;
         {
             const std::lock_guard lock(mutex_);
-            full = clients_.size() >= static_cast<std::size_t>(options_.maxConnections);
-            if (!full) clients_[fd] = {addressText(address), Clock::now()};
-        }
-        if (full) {
-            static constexpr std::string_view kFull =
-                "HTTP/1.1 503 Service Unavailable\r\nRetry-After: 1\r\nConnection: close\r\n"
-                "Content-Length: 0\r\n\r\n";
-            (void)::send(fd, kFull.data(), kFull.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
-            ::close(fd);
-            continue;
+            if (clients_.size() >= static_cast<std::size_t>(options_.maxConnections)) {
+                ++closed_.full;
+                (void)::send(fd, kFull.data(), kFull.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+                ::close(fd);
+                continue;
+            }
+            clients_[fd] = std::move(client);
         }
         epoll_event event{};
         event.events = EPOLLIN | EPOLLRDHUP | EPOLLONESHOT;
         event.data.fd = fd;
-        if (::epoll_ctl(epollFd_, EPOLL_CTL_ADD, fd, &event) != 0) drop(fd);
-    }
-}
-
-// A thread is worth spending on a connection once a whole head is there (or too much of one, or
-// the end). Until then the kernel is told to wake us for more bytes than there are now.
-void Listener::look(int fd, bool ended) {
-    std::array<char, kMaxHead> bytes;
-    const ssize_t got = ::recv(fd, bytes.data(), bytes.size(), MSG_PEEK | MSG_DONTWAIT);
-    const std::string_view text(bytes.data(), got > 0 ? static_cast<std::size_t>(got) : 0);
-    const bool partial = !ended && got > 0 && text.size() < bytes.size() &&
-                         text.find("\r\n\r\n") == std::string_view::npos;
-    bool wait = partial || (!ended && got < 0 && errno == EAGAIN);
-    {
-        const std::lock_guard lock(mutex_);
-        const auto found = clients_.find(fd);
-        if (found == clients_.end() || found->second.active) return;
-        Client& client = found->second;
-        const int low = static_cast<int>(got) + 1;
-        if (partial && client.headSince == Clock::time_point{}) client.headSince = Clock::now();
-        if (partial && ::setsockopt(fd, SOL_SOCKET, SO_RCVLOWAT, &low, sizeof low) != 0)
-            wait = false;
-    }
-    if (wait)
-        watch(fd);
-    else
-        activate(fd);
-}
-
-void Listener::watch(int fd) {
-    epoll_event event{};
-    event.events = EPOLLIN | EPOLLRDHUP | EPOLLONESHOT;
-    event.data.fd = fd;
-    ::epoll_ctl(epollFd_, EPOLL_CTL_MOD, fd, &event);
-}
-
-void Listener::activate(int fd) {
-    {
-        const std::lock_guard lock(mutex_);
-        const auto found = clients_.find(fd);
-        if (found == clients_.end() || found->second.active) return;
-        if (found->second.headSince != Clock::time_point{}) {
-            const int one = 1;
-            ::setsockopt(fd, SOL_SOCKET, SO_RCVLOWAT, &one, sizeof one);
+        if (::epoll_ctl(epollFd_, EPOLL_CTL_ADD, fd, &event) != 0) {
+            const std::lock_guard lock(mutex_);
+            clients_.erase(fd);
+            ::close(fd);
         }
-        found->second.active = true;
-        queue_.push_back(fd);
+    }
+}
+
+void Listener::look(int fd) {
+    Client* client = nullptr;
+    Phase phase{};
+    {
+        const std::lock_guard lock(mutex_);
+        const auto found = clients_.find(fd);
+        if (found == clients_.end() || found->second->phase == Phase::active) return;
+        client = found->second.get();
+        phase = client->phase;
+    }
+    if (phase == Phase::lingering) return linger(*client);
+    client->link.flush();
+    count(*client);
+    if (phase != Phase::sending) return receive(*client);
+    if (client->link.isPending())
+        watch(*client);
+    else
+        activate(*client);
+}
+
+void Listener::receive(Client& client) {
+    for (int i = 0; i < kReads; ++i) {
+        const Link::Got got = client.link.receive();
+        if (got == Link::Got::nothing) break;
+        if (got == Link::Got::closed) {
+            if (client.arrival.state() != Arrival::State::body) return drop(client);
+            client.arrival.giveUp(client.link.in());  // it may still read what we say to that
+            return activate(client);
+        }
+        client.arrival.feed(client.link.in());
+        if (client.arrival.state() == Arrival::State::whole) return activate(client);
+    }
+    await(client);
+}
+
+// What the client still sends is taken for a moment, so that it reads the answer instead of a
+// reset (RFC 9112 section 9.6).
+void Listener::linger(Client& client) {
+    for (int i = 0; i < kReads; ++i) {
+        const Link::Got got = client.link.receive();
+        client.drained += client.link.in().size();
+        client.link.in().clear();
+        if (got == Link::Got::nothing) break;
+        if (got == Link::Got::closed || client.drained > kLingerBytes) return drop(client);
+    }
+    watch(client);
+}
+
+void Listener::sweep() {
+    const Clock::time_point now = Clock::now();
+    if (now - swept_ < kSweep) return;
+    swept_ = now;
+    std::vector<std::pair<Client*, Phase>> late;
+    {
+        const std::lock_guard lock(mutex_);
+        for (const auto& [fd, client] : clients_) {
+            if (client->phase == Phase::active || now < client->until) continue;
+            late.emplace_back(client.get(), client->phase);
+            if (client->phase == Phase::sending) ++closed_.slowReader;
+            if (client->phase == Phase::receiving)
+                ++(client->arrival.state() == Arrival::State::head ? closed_.slowHead
+                                                                   : closed_.slowBody);
+        }
+    }
+    for (const auto& [client, phase] : late) giveUp(*client, phase);
+}
+
+// A thread has the last word with a client that is too slow: to tell it so, or the log.
+void Listener::giveUp(Client& client, Phase phase) {
+    if (phase == Phase::idle || phase == Phase::lingering) return drop(client);
+    if (phase == Phase::receiving)
+        client.arrival.giveUp(client.link.in());
+    else
+        client.link.abandon();
+    activate(client);
+}
+
+void Listener::relieve() {
+    while (buffered_ > options_.bufferBytes) {
+        Client* slowest = nullptr;
+        Phase phase{};
+        {
+            const std::lock_guard lock(mutex_);
+            for (const auto& [fd, client] : clients_)
+                if (client->phase != Phase::active && client->held > 0 &&
+                    (slowest == nullptr || client->since < slowest->since))
+                    slowest = client.get();
+            if (slowest == nullptr) return;  // all of it is with threads, of which there are few
+            phase = slowest->phase;
+            ++closed_.memory;
+        }
+        if (phase != Phase::sending) {
+            drop(*slowest);
+        } else {
+            slowest->link.abandon();
+            activate(*slowest);
+        }
+    }
+}
+
+// ---- All threads
+
+void Listener::watch(const Client& client) const {
+    epoll_event event{};
+    event.events = EPOLLONESHOT;
+    if (client.link.isPending()) event.events |= EPOLLOUT;
+    if (client.phase != Phase::sending) event.events |= EPOLLIN | EPOLLRDHUP;
+    event.data.fd = client.link.fd();
+    ::epoll_ctl(epollFd_, EPOLL_CTL_MOD, client.link.fd(), &event);
+}
+
+void Listener::count(Client& client) {
+    const std::size_t held = client.link.held() + client.arrival.held();
+    buffered_ += held - client.held;
+    client.held = held;
+    if (buffered_ > options_.bufferBytes) wake();
+}
+
+void Listener::enter(Client& client, Phase phase, Clock::time_point since,
+                     std::chrono::milliseconds patience) {
+    count(client);
+    const std::lock_guard lock(mutex_);
+    client.phase = phase;
+    client.since = since;
+    client.until = since + patience;
+    watch(client);
+}
+
+void Listener::await(Client& client) {
+    const Timeouts& timeouts = options_.timeouts;
+    if (client.arrival.mustSayContinue()) {
+        client.link.put(kContinue);
+        client.link.flush();
+    }
+    const Arrival::State state = client.arrival.state();
+    if (state == Arrival::State::nothing)
+        enter(client, Phase::idle, Clock::now(), options_.keepAlive);
+    else
+        enter(client, Phase::receiving, client.arrival.since(),
+              state == Arrival::State::head ? timeouts.head : timeouts.body);
+}
+
+void Listener::activate(Client& client) {
+    count(client);
+    {
+        const std::lock_guard lock(mutex_);
+        client.phase = Phase::active;
+        queue_.push_back(&client);
     }
     ready_.notify_one();
 }
 
-void Listener::park(int fd) {
-    const std::lock_guard lock(mutex_);
-    Client& client = clients_[fd];
-    client.active = false;
-    client.headSince = {};
-    client.idleSince = Clock::now();
-    watch(fd);
+void Listener::end(Client& client, bool isCut) {
+    const bool mayHaveMore =
+        isCut || !client.link.in().empty() || client.link.receive() == Link::Got::bytes;
+    if (!mayHaveMore) return drop(client);
+    client.link.endSending();
+    client.link.in().clear();
+    enter(client, Phase::lingering, Clock::now(), options_.timeouts.linger);
 }
 
-void Listener::drop(int fd) {
+void Listener::drop(Client& client) {
+    const int fd = client.link.fd();
     {
         const std::lock_guard lock(mutex_);
+        buffered_ -= client.held;
         clients_.erase(fd);
     }
     ::close(fd);
+    if (stopping_) wake();
 }
 
-void Listener::sweep() {
-    std::vector<int> late;
-    {
-        const std::lock_guard lock(mutex_);
-        const auto now = Clock::now();
-        for (auto it = clients_.begin(); it != clients_.end();) {
-            const Client& client = it->second;
-            const bool begun = client.headSince != Clock::time_point{};
-            if (!client.active && begun && now - client.headSince > options_.timeouts.head)
-                late.push_back(it->first);
-            if (!client.active && !begun && now - client.idleSince > options_.keepAlive) {
-                ::close(it->first);
-                it = clients_.erase(it);
-            } else {
-                ++it;
-            }
-        }
-    }
-    for (const int fd : late) activate(fd);  // to be told that it was too slow
-}
-
-void Listener::dropAll() {
-    const std::lock_guard lock(mutex_);
-    for (const auto& [fd, client] : clients_) ::close(fd);
-    clients_.clear();
-}
-
-// The next request of a client that asks one after the other comes within a moment: taking it here
-// saves two wake-ups. Nobody must wait for this thread meanwhile, and the head must be whole.
-bool Listener::nextIsHere(int fd) {
-    {
-        const std::lock_guard lock(mutex_);
-        if (!queue_.empty()) return false;
-    }
-    pollfd wait{fd, POLLIN, 0};
-    if (::poll(&wait, 1, kNextMs) != 1 || wait.revents != POLLIN) return false;
-    std::array<char, kMaxHead> bytes;
-    const ssize_t got = ::recv(fd, bytes.data(), bytes.size(), MSG_PEEK | MSG_DONTWAIT);
-    return got > 0 &&
-           std::string_view(bytes.data(), static_cast<std::size_t>(got)).find("\r\n\r\n") !=
-               std::string_view::npos;
-}
+// ---- Threads that handle requests
 
 void Listener::serveLoop() {
-    Connection connection(handler_, options_.timeouts);
+    Connection connection(handler_);
     for (;;) {
-        int fd = -1;
-        std::string remoteAddress;
+        Client* client = nullptr;
         {
             std::unique_lock lock(mutex_);
             ready_.wait(lock, [this] { return !queue_.empty() || ended_; });
             if (queue_.empty()) return;
-            fd = queue_.front();
+            client = queue_.front();
             queue_.pop_front();
-            remoteAddress = clients_[fd].remoteAddress;
         }
-        bool keep = true;
-        do {
-            keep = connection.serve(fd, remoteAddress, [this] { return stopping_.load(); });
-        } while (keep && !stopping_ && nextIsHere(fd));
-        if (keep && !stopping_)
-            park(fd);
-        else
-            drop(fd);
+        serve(*client, connection);
+    }
+}
+
+bool Listener::othersWait() const {
+    const std::lock_guard lock(mutex_);
+    return !queue_.empty();
+}
+
+// The next request of a client that asks one after the other comes within a moment: taking it here
+// saves two wake-ups. Nobody must wait for this thread meanwhile.
+bool Listener::nextIsHere(Client& client) {
+    if (othersWait()) return false;
+    pollfd wait{client.link.fd(), POLLIN, 0};
+    if (::poll(&wait, 1, kNextMs) != 1 || wait.revents != POLLIN) return false;
+    if (client.link.receive() != Link::Got::bytes) return false;  // its end is seen by the mover
+    client.arrival.feed(client.link.in());
+    return client.arrival.state() == Arrival::State::whole;
+}
+
+void Listener::serve(Client& client, Connection& connection) {
+    for (;;) {
+        if (client.answered) {
+            if (client.link.isPending())
+                return enter(client, Phase::sending, Clock::now(), options_.timeouts.write);
+            const Answered done = std::move(*client.answered);
+            client.answered.reset();
+            const bool sent = !client.link.isBroken();
+            const std::chrono::duration<double, std::milli> took = Clock::now() - done.since;
+            handler_.finished(done.request, done.response, took.count(), sent);
+            if (!sent) return drop(client);
+            if (!done.keep || stopping_) return end(client, done.isCut);
+            client.arrival.feed(client.link.in());
+            if (client.arrival.state() != Arrival::State::whole) {
+                if (!nextIsHere(client)) return await(client);
+            } else if (othersWait()) {
+                return activate(client);  // behind them
+            }
+        }
+        Incoming incoming = client.arrival.take();
+        incoming.head.request.remoteAddress = client.remoteAddress;
+        client.answered = connection.answer(client.link, std::move(incoming), stopping_);
+        count(client);
     }
 }
 

@@ -24,12 +24,12 @@ struct Request {
     std::optional<std::string> header(std::string_view name) const;
 };
 
-/// The body of a request, read on demand so that a handler may refuse before it is sent.
+/// The body of a request.
 class Body {
   public:
     virtual ~Body() = default;
-    /// All bytes. Throws Error limit.body as soon as more than `maxBytes` are there or announced,
-    /// http.body when they do not arrive as announced. May be called once.
+    /// All bytes. Throws Error limit.body when there are or were announced more than `maxBytes`,
+    /// http.body when they did not arrive as announced. May be called once.
     virtual std::string read(std::size_t maxBytes) = 0;
 };
 
@@ -49,11 +49,15 @@ struct Response {
 class Handler {
   public:
     virtual ~Handler() = default;
+    /// How many bytes of body are waited for before the request is handled; 0 where it will be
+    /// refused whatever they are. Called by the one thread that moves all bytes: must not block.
+    virtual std::size_t bodyLimit(const Request& request) const = 0;
     virtual Response handle(const Request& request, Body& body) = 0;
     /// An answer to a request that could not be read as HTTP. `code` as in problem.h.
     virtual Response refuse(const Request& request, int status, const std::string& code,
                             const std::string& message) = 0;
-    /// Called after the answer was written. `sent` is false when the client had gone.
+    /// Called after the answer was written. `sent` is false when the client had gone or did not
+    /// take it in time.
     virtual void finished(const Request& request, const Response& response, double milliseconds,
                           bool sent) = 0;
 };

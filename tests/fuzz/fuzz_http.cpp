@@ -1,7 +1,9 @@
-// Heads of requests: what is let through to the HTTP library is one clean head.
+// Heads of requests: what is let through to the HTTP library is one clean head. Bodies end in one
+// place however their bytes arrive.
 #include <algorithm>
 
 #include "server/etag.h"
+#include "server/http/body_reader.h"
 #include "server/http/head.h"
 #include "server/http/uri.h"
 #include "tests/fuzz/checks.h"
@@ -32,6 +34,41 @@ void checkAccepted(const server::http::Head& head) {
     server::matchesTag(request.header("if-none-match"), "\"0123\"");
 }
 
+/// A body read in pieces of the given size, and what was left over of the bytes.
+struct Read {
+    server::http::BodyReader reader;
+    std::size_t taken = 0;
+};
+
+Read readIn(std::string_view bytes, std::size_t piece, std::optional<std::uint64_t> length) {
+    constexpr std::size_t kMaxBody = 1000;
+    Read read{server::http::BodyReader(length, kMaxBody)};
+    using State = server::http::BodyReader::State;
+    while (read.reader.state() == State::more && read.taken < bytes.size()) {
+        const std::string_view part = bytes.substr(read.taken, piece);
+        const std::size_t took = read.reader.feed(part);
+        require(took <= part.size(), "more was taken than there is");
+        require(took == part.size() || read.reader.state() != State::more, "bytes were left");
+        read.taken += took;
+    }
+    require(read.reader.size() <= kMaxBody, "a body beyond its bound");
+    return read;
+}
+
+/// However the bytes arrive, the same body ends at the same place.
+void checkBody(std::string_view bytes) {
+    for (const auto& length : {std::optional<std::uint64_t>(), std::optional<std::uint64_t>(7)}) {
+        Read whole = readIn(bytes, bytes.size() + 1, length);
+        const std::string body = whole.reader.take();
+        for (const std::size_t piece : {std::size_t{1}, std::size_t{3}}) {
+            Read pieces = readIn(bytes, piece, length);
+            require(pieces.reader.state() == whole.reader.state(), "pieces end in another state");
+            require(pieces.taken == whole.taken, "pieces end in another place");
+            require(pieces.reader.take() == body, "pieces make another body");
+        }
+    }
+}
+
 }  // namespace
 
 const Target& target() {
@@ -49,6 +86,10 @@ const Target& target() {
                               "Content-Length: 18446744073709551616\r\n",
                               "Transfer-Encoding: chunked\r\n",
                               "Transfer-Encoding: gzip\r\n",
+                              "5\r\nworld\r\n",
+                              "0\r\n\r\n",
+                              "1;a=b\r\n",
+                              "ffffffffffffffffff\r\n",
                               "Connection: close\r\n",
                               "Expect: 100-continue\r\n",
                               "Range: bytes=0-1\r\n",
@@ -78,6 +119,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     using namespace farol::fuzz;
     std::string text(reinterpret_cast<const char*>(data), std::min(size, http::kMaxHead - 4));
     const std::string decoded = http::percentDecode(text, false).value_or("");
+    checkBody(text);
     require(http::percentDecode(http::percentEncodePath(decoded), false) == decoded,
             "what was encoded decodes to something else");
     if (const std::size_t end = text.find("\r\n\r\n"); end != std::string::npos)

@@ -1,0 +1,74 @@
+#include "server/http/arrival.h"
+
+#include <utility>
+
+namespace farol::server::http {
+
+Arrival::State Arrival::state() const {
+    if (!begun_) return State::nothing;
+    if (!head_) return State::head;
+    return body_ && body_->state() == BodyReader::State::more ? State::body : State::whole;
+}
+
+void Arrival::refuse(Refusal refusal) {
+    head_->refusal = std::move(refusal);
+    headAt_ = Clock::now();
+}
+
+void Arrival::readHead(std::string& in) {
+    // A blank line or two before a request are allowed (RFC 9112 section 2.2).
+    while (in.starts_with("\r\n")) in.erase(0, 2);
+    if (in.empty()) return;
+    if (!std::exchange(begun_, true)) since_ = Clock::now();
+    const std::size_t end = in.find("\r\n\r\n", searched_);
+    if (end == std::string::npos ? in.size() >= kMaxHead : end + 4 > kMaxHead) {
+        head_ = checkHead(in);
+        refuse(in.find("\r\n") == std::string::npos
+                   ? Refusal{414, "http.uri-too-long", "The address is too long."}
+                   : Refusal{431, "http.head", "The headers are too large."});
+        std::string().swap(in);
+        return;
+    }
+    searched_ = in.size() < 3 ? 0 : in.size() - 3;
+    if (end == std::string::npos) return;
+    head_ = checkHead(std::string_view(in).substr(0, end + 4));
+    in.erase(0, end + 4);
+    headAt_ = since_ = Clock::now();
+    if (head_->refusal || !head_->mayHaveBody() || !head_->hasBody()) return;
+    body_.emplace(head_->contentLength, handler_->bodyLimit(head_->request));
+    sayContinue_ = head_->expectsContinue && body_->state() == BodyReader::State::more;
+}
+
+void Arrival::feed(std::string& in) {
+    if (!head_) readHead(in);
+    if (state() == State::body && !in.empty()) {
+        in.erase(0, body_->feed(in));
+        sayContinue_ = false;  // it did not wait to be told
+    }
+    // A connection that waits holds no buffer.
+    if (in.empty()) std::string().swap(in);
+}
+
+void Arrival::giveUp(std::string& in) {
+    if (state() == State::head) {
+        head_ = checkHead(in);
+        refuse({408, "http.timeout", "The request took too long to arrive."});
+        std::string().swap(in);
+    } else if (body_) {
+        body_->giveUp();
+    }
+}
+
+bool Arrival::mustSayContinue() { return std::exchange(sayContinue_, false); }
+
+Incoming Arrival::take() {
+    Incoming out{std::move(*head_), "", BodyReader::State::whole, headAt_};
+    if (body_) {
+        out.bodyState = body_->state();
+        out.body = body_->take();
+    }
+    *this = Arrival(*handler_);
+    return out;
+}
+
+}  // namespace farol::server::http

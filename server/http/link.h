@@ -1,0 +1,45 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace farol::server::http {
+
+/// A connected, non-blocking socket with what has arrived on it and what is still to be sent. No
+/// call ever waits. Does not own the socket. Used by one thread at a time.
+class Link {
+  public:
+    explicit Link(int fd) : fd_(fd) {}
+    int fd() const { return fd_; }
+
+    enum class Got { bytes, nothing, closed };
+    /// Adds some of what is there now to in().
+    Got receive();
+    /// What has arrived and nobody has taken off its front yet.
+    std::string& in() { return in_; }
+
+    /// To be sent after what was put before: large pieces at once as far as the client takes them,
+    /// the rest by flush().
+    void put(std::string_view bytes);
+    void flush();
+    /// What is pending will not be sent any more.
+    void abandon();
+    bool isPending() const { return sent_ < out_.size(); }
+    bool isBroken() const { return broken_; }
+
+    /// Says that nothing more will be sent (RFC 9112 section 9.6).
+    void endSending();
+    /// Bytes of memory that wait for the client.
+    std::size_t held() const { return in_.size() + out_.size() - sent_; }
+
+  private:
+    /// Sends what is pending and then `more`; the bytes of `more` that went.
+    std::size_t push(std::string_view more);
+
+    int fd_;
+    std::string in_, out_;
+    std::size_t sent_ = 0;  ///< of out_
+    bool broken_ = false;
+};
+
+}  // namespace farol::server::http

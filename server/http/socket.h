@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+
+namespace farol::server::http {
+
+/// A non-blocking socket that listens on host and port (0: any free one). Throws
+/// std::runtime_error that says why it cannot.
+int listenOn(const std::string& host, int port);
+
+/// The port that it listens on.
+int portOf(int fd);
+
+/// An accepted client, non-blocking; -1 with errno where there is none.
+int acceptFrom(int fd, std::string& address);
+
+}  // namespace farol::server::http

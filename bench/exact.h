@@ -32,7 +32,7 @@ Subject readSubject(const std::string& xml, std::shared_ptr<const scene::Assets>
 /// R1 and, where `cap` is over 1, R2 of at most cap x cap rays a pixel, at `timeS`.
 struct Exact {
     reference::Picture centers, areas;
-    std::shared_ptr<const grade::FlipPicture> flipAreas;  ///< null without R2
+    std::shared_ptr<const grade::FlipPicture> flipAreas;  ///< R2 in 8 bits; null without R2
 };
 
 /// Throws std::invalid_argument for a scene that the reference does not cover.
@@ -43,7 +43,7 @@ struct Errors {
     double interiorRms = 0.0;   ///< against R1, inside outlines, levels of 255
     double interiorP999 = 0.0;  ///< 99.9th percentile of the same
     double areasRms = 0.0;      ///< against R2, all pixels, levels of 255
-    double flipMean = 0.0;      ///< against R2, all pixels, 0..1
+    double flipMean = 0.0;      ///< against R2 in 8 bits, all pixels, 0..1
     double flipObjects = 0.0;   ///< the same over pixels that show an object or its outline
 };
 

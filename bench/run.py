@@ -87,7 +87,7 @@ def quality(bench, progress):
     for i, name in enumerate(names):
         progress.step("quality", i / len(names), name)
         scene = name if name == "mixed" else f"scenes/{name}/scene.xml"
-        arguments = [scene, "--runs", 3 if bench.quick else 5, "--cap", 8,
+        arguments = [scene, "--runs", 3 if bench.quick else 5, "--cap", 16,
                      f"width={size[0]}", f"height={size[1]}"]
         found = bench.lines("bench_quality", *arguments, *(["--quick"] if bench.quick else []))
         if not found:

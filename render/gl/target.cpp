@@ -27,9 +27,15 @@ void check(const Api& api) {
 
 }  // namespace
 
-Target::Target(const Api& api, int width, int height, int samples)
-    : api_(api), width_(width), height_(height), samples_(samples), drawn_(api) {
-    color_ = storage(api, GL_RGBA8, width, height, samples);
+Target::Target(const Api& api, int width, int height, int samples, Channels channels)
+    : api_(api),
+      width_(width),
+      height_(height),
+      samples_(samples),
+      channels_(channels),
+      drawn_(api) {
+    const GLenum format = channels == Channels::bits16 ? GL_RGBA16 : GL_RGBA8;
+    color_ = storage(api, format, width, height, samples);
     depth_ = storage(api, GL_DEPTH_COMPONENT32F, width, height, samples);
     api.BindFramebuffer(GL_FRAMEBUFFER, drawn_.name());
     attach(api, GL_COLOR_ATTACHMENT0, color_);
@@ -37,7 +43,7 @@ Target::Target(const Api& api, int width, int height, int samples)
     check(api);
     if (samples > 1) {
         resolved_ = Framebuffer(api);
-        resolvedColor_ = storage(api, GL_RGBA8, width, height, 1);
+        resolvedColor_ = storage(api, format, width, height, 1);
         api.BindFramebuffer(GL_FRAMEBUFFER, resolved_.name());
         attach(api, GL_COLOR_ATTACHMENT0, resolvedColor_);
         check(api);
@@ -49,10 +55,7 @@ void Target::bind() const {
     api_.Viewport(0, 0, width_, height_);
 }
 
-void Target::read(Image& image) const {
-    image.width = width_;
-    image.height = height_;
-    image.pixels.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_) * 4);
+void Target::readAs(GLenum type, void* pixels) const {
     GLuint source = drawn_.name();
     if (samples_ > 1) {
         api_.BindFramebuffer(GL_READ_FRAMEBUFFER, drawn_.name());
@@ -64,7 +67,19 @@ void Target::read(Image& image) const {
     api_.BindFramebuffer(GL_READ_FRAMEBUFFER, source);
     api_.PixelStorei(GL_PACK_ALIGNMENT, 1);
     api_.PixelStorei(kPackInvert, GL_TRUE);  // top row first
-    api_.ReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, image.pixels.data());
+    api_.ReadPixels(0, 0, width_, height_, GL_RGBA, type, pixels);
+}
+
+void Target::read(Image& image) const {
+    image.width = width_;
+    image.height = height_;
+    image.pixels.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_) * 4);
+    readAs(GL_UNSIGNED_BYTE, image.pixels.data());
+}
+
+void Target::read(std::vector<std::uint16_t>& pixels) const {
+    pixels.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_) * 4);
+    readAs(GL_UNSIGNED_SHORT, pixels.data());
 }
 
 }  // namespace farol::render::gl

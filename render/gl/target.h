@@ -1,26 +1,39 @@
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "render/gl/objects.h"
 #include "render/image.h"
 
 namespace farol::render::gl {
 
-/// What a frame is drawn into: RGBA8 and 32-bit float depth, with samples, and where there are
+/// What a frame is drawn into: RGBA and 32-bit float depth, with samples, and where there are
 /// samples the picture they are resolved into. (OSMesa's own depth buffer has 24 bits at most.)
 class Target {
   public:
-    /// samples: 1, or what GL gives for antialiasing. Throws std::runtime_error when GL refuses.
-    Target(const Api& api, int width, int height, int samples);
-    bool fits(int width, int height, int samples) const {
-        return width == width_ && height == height_ && samples == samples_;
+    /// 8 bits a channel for a picture in one pass; 16 where passes are added up, so that they are
+    /// rounded to levels once.
+    enum class Channels { bits8, bits16 };
+
+    /// samples: 1, or what GL gives for antialiasing. Throws std::bad_alloc when GL refuses.
+    Target(const Api& api, int width, int height, int samples, Channels channels);
+    bool fits(int width, int height, int samples, Channels channels) const {
+        return width == width_ && height == height_ && samples == samples_ && channels == channels_;
     }
     void bind() const;
-    /// Resolves and reads the picture, top row first, premultiplied alpha as drawn.
+    /// Resolves and reads the picture of 8 bits a channel, top row first, premultiplied alpha as
+    /// drawn.
     void read(Image& image) const;
+    /// The same of 16 bits a channel, 0..65535.
+    void read(std::vector<std::uint16_t>& pixels) const;
 
   private:
+    void readAs(GLenum type, void* pixels) const;
+
     const Api& api_;
     int width_, height_, samples_;
+    Channels channels_;
     Framebuffer drawn_, resolved_;
     Renderbuffer color_, depth_, resolvedColor_;
 };

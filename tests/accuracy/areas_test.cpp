@@ -60,9 +60,10 @@ TEST_CASE("more samples are nearer to the exact areas") {
     }
 }
 
-// GL's samples share one evaluation of the shader; passes of their own do not. So where the light
-// changes within a pixel, away from any edge, aa=4 is as wrong as aa=1, and aa=16 less.
-TEST_CASE("8 and 16 samples are passes of their own: shading is averaged, too") {
+// The four samples of one pass share one evaluation of the shader, those of aa=8 and aa=16 do not.
+// So where the light changes within a pixel, away from any edge, aa=4 is as wrong as aa=1, and
+// aa=8 and aa=16 are within a level.
+TEST_CASE("8 and 16 samples are shaded each: what changes within a pixel is averaged") {
     const bench::Subject subject = bench::readSubject(
         kView + R"(<group><models><model file="plane_40.3d"><color><diffuse R="20" G="20" B="20"/>
             <ambient R="0" G="0" B="0"/></color></model><model file="sphere_1.5.3d"><color>
@@ -86,25 +87,26 @@ TEST_CASE("8 and 16 samples are passes of their own: shading is averaged, too") 
         std::printf("highlight: aa=%d rms %.3f inside outlines\n", samples, rms.back());
     }
     CHECK(rms[1] == Approx(rms[0]).epsilon(0.1));
-    // Little: the passes are an eighth of a pixel apart from the centre (measured 0.805, 0.754,
-    // 0.762).
-    CHECK(rms[2] < 0.97 * rms[1]);
-    CHECK(rms[3] < 0.97 * rms[1]);
+    CHECK(rms[2] < 0.5 * rms[1]);
+    CHECK(rms[3] < 0.5 * rms[1]);
 }
 
-// `scripts/bench quality` measures every scene; these are quick to trace. The bar of 0.01 at 16
-// samples is missed here (docs/accuracy.md); what is held is that multisampling pays. That
-// 16 samples are not nearer than 4 here is a finding of its own, printed and not yet explained.
+// `scripts/bench quality` measures every scene; these are quick to trace.
 TEST_CASE("samples bring example scenes nearer to their exact areas by mean FLIP") {
-    for (const char* name : {"primitives", "police-box", "torch"}) {
+    for (const char* name : {"primitives", "police-box", "torch", "teapots"}) {
         const bench::Subject subject = example(name);
         const bench::Exact exact = bench::exactOf(subject, 160, 120, 8);
-        const bench::Errors one = bench::errorsOf(exact, drawn(subject, 160, 120, 1));
-        const bench::Errors four = bench::errorsOf(exact, drawn(subject, 160, 120, 4));
-        const bench::Errors sixteen = bench::errorsOf(exact, drawn(subject, 160, 120, 16));
-        std::printf("%s: mean FLIP %.5f at aa=1, %.5f at aa=4, %.5f at aa=16\n", name, one.flipMean,
-                    four.flipMean, sixteen.flipMean);
+        std::vector<double> flip;
+        for (const int samples : {1, 4, 8, 16})
+            flip.push_back(bench::errorsOf(exact, drawn(subject, 160, 120, samples)).flipMean);
+        std::printf("%s: mean FLIP %.5f, %.5f, %.5f, %.5f at aa=1, 4, 8, 16\n", name, flip[0],
+                    flip[1], flip[2], flip[3]);
         INFO(name);
-        CHECK(four.flipMean < one.flipMean);
+        CHECK(flip[1] < flip[0]);
+        CHECK(flip[2] < 0.75 * flip[1]);
+        // Not below 8 samples everywhere: 8 x 8 rays a pixel are not exact enough to tell.
+        CHECK(flip[3] < 0.75 * flip[1]);
+        // The bar of 0.01 is for 240 x 180 px; here outlines are half as much again of the picture.
+        CHECK(flip[3] < 0.0125);
     }
 }

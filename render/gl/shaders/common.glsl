@@ -1,3 +1,13 @@
+// What is interpolated to be lit: at an outline where a sample is covered, not at the pixel's
+// middle, which may lie far outside a triangle that is seen edge-on. A ray to the exact surface
+// starts anywhere in the triangle's plane, and texture coordinates stay at the middle: differences
+// between pixels choose their mipmap.
+#ifdef SURFACE
+#define COVERED
+#else
+#define COVERED centroid
+#endif
+
 // The shading model of OpenGL 2.1, section 2.14.1, written once for vertex and fragment stage.
 // Eye space: the viewer at the origin, looking along -Z.
 

@@ -12,9 +12,9 @@ uniform vec4 planeT;
 in vec3 positionMapped;
 #endif
 #ifdef GOURAUD
-in vec3 modulated;
+COVERED in vec3 modulated;
 #ifdef SEPARATE_SPECULAR
-in vec3 added;
+COVERED in vec3 added;
 #endif
 #endif
 #ifdef FLAT
@@ -24,10 +24,10 @@ flat in vec3 added;
 #endif
 #endif
 #if (defined(PHONG) || defined(LAYER_NORMAL)) && !defined(SURFACE)
-in vec3 normalView;
+COVERED in vec3 normalView;
 #endif
 #if defined(PHONG) || defined(LAYER_DEPTH) || (defined(SURFACE) && defined(TEXGEN_EYE))
-in vec3 positionView;
+COVERED in vec3 positionView;
 #endif
 #ifdef LAYER_NORMAL
 uniform mat3 worldFromView;

@@ -42,9 +42,9 @@ out vec2 uv;
 out vec3 positionMapped;
 #endif
 #ifdef GOURAUD
-out vec3 modulated;
+COVERED out vec3 modulated;
 #ifdef SEPARATE_SPECULAR
-out vec3 added;
+COVERED out vec3 added;
 #endif
 #endif
 #ifdef FLAT
@@ -54,10 +54,10 @@ flat out vec3 added;
 #endif
 #endif
 #if (defined(PHONG) || defined(LAYER_NORMAL)) && !defined(SURFACE)
-out vec3 normalView;
+COVERED out vec3 normalView;
 #endif
 #if defined(PHONG) || defined(LAYER_DEPTH) || (defined(SURFACE) && defined(TEXGEN_EYE))
-out vec3 positionView;
+COVERED out vec3 positionView;
 #endif
 
 void main() {

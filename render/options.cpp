@@ -133,7 +133,8 @@ const std::array<OptionSpec, 29> kSpecs{{
     {"shading", "points|wireframe|solid|chess|flat|gouraud|phong",
      "default: by what the scene holds",
      [](O& o, S& v) { o.shading = parseName("shading", v, kShadings); }},
-    {"aa", "1|2|4|8|16 samples", "antialiasing, samples a pixel; 8 and 16 are shaded each; default by error, 4",
+    {"aa", "1|2|4|8|16 samples",
+     "antialiasing, samples a pixel; 8 and 16 are shaded each; default by error, 4",
      [](O& o, S& v) {
          const int n = parseInt("aa", v, 1, 16, "1|2|4|8|16 samples");
          if ((n & (n - 1)) != 0) outOfRange("aa", v, "1|2|4|8|16 samples");

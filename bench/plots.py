@@ -109,13 +109,15 @@ def encoders(data):
         yield f"encoders-{name}", plot
 
 
+PEER_SCENES = {"spheres": "100 spheres", "course-4-6": "course scene 4_6"}
+
+
 def peers(data):
     groups = defaultdict(list)
     for row in data["results"]:
-        groups[f"{row['kind']}-{row['width']}x{row['height']}"].append(row)
-    for name, rows in groups.items():
-        kind, size = name.split("-")
+        groups[row["scene"], row["kind"], f"{row['width']}x{row['height']}"].append(row)
+    for (scene, kind, size), rows in groups.items():
         what = "from nothing to a PNG" if kind == "cold" else "next frame and its PNG"
-        yield f"peers-{name}", Bars(f"100 spheres, {size}: {what}", "ms (medians)",
-                                    [(row["program"], {"ms": row["ms"]}) for row in rows],
-                                    note=note(data))
+        yield f"peers-{scene}-{kind}-{size}", Bars(
+            f"{PEER_SCENES[scene]}, {size}: {what}", "ms (medians)",
+            [(row["program"], {"ms": row["ms"]}) for row in rows], note=note(data))

@@ -41,7 +41,9 @@ std::string allShapes() {
     std::string text =
         "Shapes, with their arguments in order (those in brackets may be left out):\n";
     for (const generator::Shape& shape : generator::shapes()) text += helpOf(shape);
-    return text + "\nA mesh file (.3d .obj .ply .tri .3db) in the place of the shape is converted.";
+    return text +
+           "\nA mesh file (.3d .obj .ply .stl .off .tri .3db) in the place of the shape is "
+           "converted.";
 }
 
 /// Words that no flag took. Numbers may be negative: the shape says whether it takes them.

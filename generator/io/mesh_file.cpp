@@ -35,6 +35,7 @@ Mesh decodeNumbers(const NumberRows& rows) {
     const std::uint32_t width = rows.rows[0].count;
     const std::size_t count = rows.rows.size();
     const auto widthOf = [&rows](std::size_t i) { return rows.rows[i].count; };
+    if (looksLikeStream(rows)) return decodeStream(rows);
     if (width == 2 && count > 1) return decodeCounted(rows);
     if (width == 1 && count > 2 && widthOf(1) == 1 && widthOf(2) == 3) return decodeCounted(rows);
     if (width == 1 && looksLikeSections(rows)) return decodeSections(rows);
@@ -90,6 +91,10 @@ Mesh decodeMesh(std::string_view bytes, const std::string& fileName, Diagnostics
         mesh = decodeBinary(bytes, fileName);
     else if (looksLikePly(bytes))
         mesh = decodePly(bytes, fileName, true);
+    else if (looksLikeStl(bytes))
+        mesh = decodeStl(bytes, fileName);
+    else if (looksLikeOff(bytes))
+        mesh = decodeOff(bytes, fileName);
     else if (endingOf(fileName) == ".patch")
         mesh = decodePatches(bytes, fileName);
     else if (endingOf(fileName) == ".obj" || looksLikeObj(bytes))

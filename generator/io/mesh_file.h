@@ -22,7 +22,8 @@ std::optional<Format> formatOf(const std::string& fileName);
 /// the result is the same mesh. Precondition: the mesh's indices are in range.
 std::string encodeMesh(const Mesh& mesh, Format format);
 
-/// Reads a mesh of any known form; the content decides, the name only where the content cannot
+/// Reads a mesh of any known form (also STL and OFF, which are not written); the content decides,
+/// the name only where the content cannot
 /// (.tri). Missing normals are computed; what is repaired is a warning in `findings`. Throws Error
 /// mesh.* with file and line, limit.triangles over kMaxTriangles.
 Mesh decodeMesh(std::string_view bytes, const std::string& fileName, Diagnostics& findings);

@@ -60,6 +60,12 @@ std::size_t mendNormals(Mesh& mesh) {
     return replaced;
 }
 
+bool hasArea(const Mesh& mesh) {
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
+        if (faceNormal(mesh.positions, &mesh.indices[i]) != dvec3(0)) return true;
+    return false;
+}
+
 }  // namespace
 
 std::vector<glm::vec3> vertexNormals(const std::vector<glm::vec3>& positions,
@@ -124,6 +130,9 @@ void repair(Mesh& mesh, const std::string& fileName, Diagnostics& findings) {
         warn(findings, "mesh.inward", fileName,
              "the closed mesh \"" + fileName + "\" faces inwards: it was turned");
     }
+    if (!hasArea(mesh))
+        warn(findings, "mesh.flat", fileName,
+             "no triangle of \"" + fileName + "\" has an area: nothing of it can be seen");
     if (!given) {
         mesh.normals = vertexNormals(mesh.positions, mesh.indices);
         return;

@@ -10,7 +10,8 @@ namespace farol::generator::io {
 /// Makes a mesh read from a file fit to draw, with a warning for each kind of repair:
 /// missing normals are the normalised sum of the unit normals of the adjacent faces (one pass,
 /// faces without area skipped); zero or NaN normals are replaced by the same; normals of another
-/// length are normalised; a closed mesh whose volume is negative is turned to face outwards.
+/// length are normalised; a closed mesh whose volume is negative is turned to face outwards; of a
+/// mesh without any area it is told.
 void repair(Mesh& mesh, const std::string& fileName, Diagnostics& findings);
 
 /// The sums described above, one a vertex; +Y for a vertex without a face that has an area.

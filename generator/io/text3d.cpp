@@ -62,6 +62,18 @@ bool couldBeTriangles(const NumberRows& rows, std::size_t begin, std::size_t end
     return true;
 }
 
+/// Rows of one width after a count of them, of their triangles or of their numbers.
+bool isCountedSoup(const NumberRows& rows, double said) {
+    const std::uint32_t width = rows.rows[1].count;
+    const auto left = static_cast<double>(rows.rows.size() - 1);
+    if (width < 3) return false;
+    for (std::size_t i = 2; i < rows.rows.size(); ++i)
+        if (rows.rows[i].count != width) return false;
+    const double perRow = width == 9 ? 3 : 1;  // vertices
+    const bool vertices = said == perRow * left && width != 3;  // positions alone: see below
+    return vertices || 3 * said == perRow * left || said == width * left;
+}
+
 }  // namespace
 
 std::string encodeText3d(const Mesh& mesh) {
@@ -160,6 +172,7 @@ Mesh decodeSingleCount(const NumberRows& rows) {
     const std::size_t left = rows.rows.size() - 1;
     if (!isCount(said) || said < 1)
         rows.refuse("mesh.count", head, "expected a number of vertices or of indices");
+    if (isCountedSoup(rows, said)) return decodeSoup(rows, 1);
     if (said > static_cast<double>(left))
         rows.refuse("mesh.truncated", head,
                     "the file says " + std::to_string(static_cast<long long>(said)) +

@@ -54,6 +54,19 @@ const std::string kPlyVertices =
     "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n";
 const std::string kPlyFaces = "element face 1\nproperty list uchar int vertex_indices\n";
 
+const std::string kStl =
+    "solid a name\n facet normal 0 0 1\n  outer loop\n   vertex 0 0 0\n   vertex 1e0 0 0\n"
+    "   vertex 0 1 0\n  endloop\n endfacet\nendsolid a name\n";
+
+/// Its remark begins as an ascii file does.
+std::string binaryStl() {
+    std::string out = "solid facet" + std::string(69, ' ') + "\x01\0\0\0"s;
+    for (const float value :
+         {0.0F, 0.0F, 1.0F, 0.0F, 0.0F, 0.0F, 1.0F, 0.0F, 0.0F, 0.0F, 1.0F, 0.0F})
+        out += bytesOf(value, false);
+    return out + "\0\0"s;
+}
+
 std::vector<Good> goodFiles() {
     const std::string soup8 = "0 0 0 0 0 1 0 0\n1 0 0 0 0 1 1 0\n0 1 0 0 0 1 0 1\n";
     return {
@@ -80,6 +93,15 @@ std::vector<Good> goodFiles() {
         {"6.3d", kPositions + "0 0 1\n1 0 1\n0 1 1\n", 6, 2, false},
         {"6 spaced.3d", kPositions + "\n0 0 1\n1 0 1\n0 1 1\n", 6, 2, false},
         {"7.3d", "6\n0,0,0\n1,0,0\n0,1,0\n0,0,1\n1,0,1\n0,1,1\n", 6, 2, false},
+        {"7 triangles.3d", "2\n" + kPositions + "0 0 1\n1 0 1\n0 1 1\n", 6, 2, false},
+        {"7 numbers.3d", "9\n" + kPositions, 3, 1, false},
+        {"7 eight.3d", "3\n" + soup8, 3, 1, true},
+        {"7 six.3d", "1\n0 0 0 0 0 1\n1 0 0 0 0 1\n0 1 0 0 0 1\n", 3, 1, false},
+        {"7 nine.3d", "1\n0 0 0 1 0 0 0 1 0\n", 3, 1, false},
+        {"row.3d", "0 0 0 1 0 0 0 1 0 0 0 1 1 0 1 0 1 1\n", 6, 2, false},
+        {"counted row.3d", "3 0 0 0 1 0 0 0 1 0\n", 3, 1, false},
+        {"column.3d", "0\n0\n0\n1\n0\n0\n0\n1\n0\n", 3, 1, false},
+        {"counted column.3d", "3\n0\n0\n0\n1\n0\n0\n0\n1\n0\n", 3, 1, false},
         {"8.3d", "0;0;0;1;0;0;0;1;0\n0;1;2\n0;0;1;0;0;1;0;0;1\n0;0;1;0;0;1\n", 3, 1, true},
         {"8 ends.3d", "0 0 0 1 0 0 0 1 0;\n0 1 2;\n0 0 1 0 0 1 0 0 1;\n0 0 1 0 0 1;\n", 3, 1, true},
         {"8 one line.3d", "0 0 0 1 0 0 0 1 0;0 1 2;0 0 1 0 0 1 0 0 1;0 0 1 0 0 1", 3, 1, true},
@@ -120,6 +142,11 @@ std::vector<Good> goodFiles() {
          4, 2, false},
         {"little.ply", binaryPly(false, "\x03\x00\x00\x01\x00\x02\x00"s), 3, 1, false},
         {"big.ply", binaryPly(true, "\x03\x00\x00\x00\x01\x00\x02"s), 3, 1, false},
+        {"a.stl", kStl, 3, 1, false},
+        {"named otherwise.obj", kStl, 3, 1, false},
+        {"binary.stl", binaryStl(), 3, 1, false},
+        {"a.off", "OFF\n# a square\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n", 4, 2, false},
+        {"colours.off", "OFF 3 1 3\n" + kPositions + "3 0 1 2 255 0 0\n", 3, 1, false},
         {"a.patch",
          "1\n0,1,2,3,4,5,6,7,8,9,10,11,12,13,14,15\n16\n0,0,0\n1,0,0\n2,0,0\n3,0,0\n0,1,0\n1,1,0\n"
          "2,1,0\n3,1,0\n0,2,0\n1,2,0\n2,2,0\n3,2,0\n0,3,0\n1,3,0\n2,3,0\n3,3,0\n",
@@ -136,6 +163,16 @@ std::vector<Bad> badFiles() {
     return {
         {"empty.3d", "mesh.empty", 1, ""},
         {"blank.3d", "mesh.empty", 1, "\n\n \n"},
+        {"row.3d", "mesh.format", 1, "0 0 0 1 0 0 0 1 0 1 1\n"},
+        {"column.3d", "mesh.format", 1, "0\n0\n0\n1\n0\n0\n0\n"},
+        {"none.stl", "mesh.empty", 0, "solid x\nfacet\nendsolid\n"},
+        {"facet.stl", "mesh.truncated", 3, "solid x\nfacet\nvertex 0 0 0\n"},
+        {"word.stl", "mesh.syntax", 3, "solid x\nfacet\n vertex 0 x 0\n"},
+        {"four.stl", "mesh.syntax", 3, "solid x\nfacet\n vertex 0 0 0 0\n"},
+        {"short.off", "mesh.truncated", 2, "OFF\n3 1 0\n0 0 0\n"},
+        {"index.off", "mesh.index", 6, "OFF\n3 1 0\n" + kPositions + "3 0 1 3\n"},
+        {"corners.off", "mesh.syntax", 6, "OFF\n3 1 0\n" + kPositions + "4 0 1 2\n"},
+        {"none.off", "mesh.empty", 2, "OFF\n3 0 0\n" + kPositions},
         {"word.3d", "mesh.syntax", 2, "0 0 0\n1 x 0\n0 1 0\n"},
         {"nul.3d", "mesh.syntax", 1, "0 0 \0 0\n"s},
         {"nan.3d", "mesh.number", 2, "0 0 0\n1 nan 0\n0 1 0\n"},
@@ -321,6 +358,17 @@ TEST_CASE("normals that are no directions are the faces' own, with a warning") {
     for (const glm::vec3& n : mesh.normals) CHECK(n == glm::vec3(0, 0, 1));
     REQUIRE(findings.size() == 1);
     CHECK(findings[0].code == "mesh.normal");
+}
+
+TEST_CASE("a mesh of lines and points is told to have nothing to see") {
+    for (const auto& [bytes, flat] :
+         {std::pair("0 0 0\n1 0 0\n2 0 0\n", true),
+          std::pair("0 0 0\n1 0 0\n2 0 0\n0 0 0\n1 0 0\n0 1 0\n", false)}) {
+        Diagnostics findings;
+        decodeMesh(bytes, "f.3d", findings);
+        CHECK(findings.size() == (flat ? 1 : 0));
+        if (flat) CHECK(findings[0].code == "mesh.flat");
+    }
 }
 
 TEST_CASE("computed normals are the mean of unit face normals; faces without area do not count") {

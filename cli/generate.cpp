@@ -10,13 +10,15 @@
 #include "cli/files.h"
 #include "generator/io/mesh_file.h"
 #include "generator/registry.h"
+#include "generator/words.h"
 #include "scene/assets.h"
 
 namespace farol::cli {
 namespace {
 
 constexpr const char* kUsageLine = "farol generate SHAPE ARGS... OUT, or farol generate IN OUT";
-constexpr const char* kEndings = "a file to write that ends with .3d, .obj, .ply or .3db";
+constexpr const char* kEndings =
+    "a file to write that ends with .3d, .obj, .ply or .3db (or - for stdout)";
 
 std::string upper(std::string text) {
     for (char& c : text) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
@@ -57,10 +59,6 @@ std::vector<std::string> wordsOf(const CLI::App& command) {
     return words;
 }
 
-bool isMeshFile(const std::string& word) {
-    return generator::io::formatOf(word).has_value() || endingOf(word) == "tri";
-}
-
 generator::Mesh convert(const std::string& path, Report& report) {
     Diagnostics findings;
     generator::Mesh mesh = generator::io::decodeMesh(readInput(path), path, findings);
@@ -69,7 +67,14 @@ generator::Mesh convert(const std::string& path, Report& report) {
 }
 
 /// A profile or patch file may lie anywhere; the generator looks it up by name in its folder.
-generator::Mesh make(std::vector<std::string> words, scene::UvLayout uv) {
+generator::Mesh make(std::vector<std::string> words, scene::UvLayout uv, Report& report) {
+    try {
+        Diagnostics findings;
+        words = generator::wordsOfComment(words, "", {}, findings);
+        report.add(findings);
+    } catch (const Error&) {
+        // As written, the words tell better what is wrong with them.
+    }
     const generator::Shape* shape = generator::findShape(words.front());
     std::string folder = ".";
     if (shape != nullptr && shape->takesFile && words.size() > 1) {
@@ -95,19 +100,23 @@ int run(const CLI::App& command, const std::string& uv, Report& report) {
     std::vector<std::string> words = wordsOf(command);
     const std::string output = words.back();
     words.pop_back();
-    const bool converts = words.size() == 1 && isMeshFile(words.front()) &&
+    const bool converts = words.size() == 1 && generator::isMeshName(words.front()) &&
                           generator::findShape(words.front()) == nullptr;
-    const auto format = generator::io::formatOf(output);
+    using generator::io::Format;
+    const auto format =
+        output == "-" ? std::optional(Format::text3d) : generator::io::formatOf(output);
+    if (output == "-" && report.json())
+        throw UsageError("--json and - would both write to standard output");
     if (!format) throw UsageError("\"" + output + "\" is the last word, which must be " + kEndings);
     if (converts && !uv.empty())
         throw UsageError("--uv lays out shapes; a mesh file keeps its own texture coordinates");
     const generator::Mesh mesh =
-        converts ? convert(words.front(), report) : make(words, layoutOf(uv));
+        converts ? convert(words.front(), report) : make(words, layoutOf(uv), report);
     writeOutput(output, generator::io::encodeMesh(mesh, *format));
     report.set("output", output);
     report.set("vertices", mesh.positions.size());
     report.set("triangles", mesh.triangles());
-    if (!report.json())
+    if (!report.json() && output != "-")
         std::cout << output << ": " << mesh.positions.size() << " vertices, " << mesh.triangles()
                   << " triangles" << std::endl;
     return kDone;

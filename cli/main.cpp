@@ -1,8 +1,11 @@
+#include <algorithm>
 #include <exception>
 #include <string_view>
 
 #include "cli/command.h"
 #include "cli/files.h"
+#include "scene/text.h"
+#include "scene/words.h"
 
 namespace {
 
@@ -29,6 +32,42 @@ int run(const Action& action, Report& report) {
         report.fail("internal", error.what());
         return kInternal;
     }
+}
+
+/// Whatever is not an option of `command`, with the nearest that is.
+std::string unexpected(const CLI::App& command, const std::string& word) {
+    std::vector<std::string> known;
+    for (const CLI::Option* one : command.get_options())
+        for (const std::string& name : one->get_lnames()) known.push_back("--" + name);
+    const std::string given = word.substr(0, word.find('='));
+    const std::string near = word[0] == '-' ? scene::didYouMean(given, known) : "";
+    return command.get_name() + (word[0] == '-' ? " has no option " : " does not expect ") +
+           scene::quoted(given) + (near.empty() ? "" : "; did you mean " + near + "?");
+}
+
+/// What CLI11 says, where it can be said better.
+std::string usageFault(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
+    const auto commands = app.get_subcommands();
+    if (commands.empty() && argc > 1) {
+        std::vector<std::string> names;
+        for (const CLI::App* one : app.get_subcommands([](const CLI::App*) { return true; }))
+            if (!one->get_group().empty()) names.push_back(one->get_name());
+        const std::string near = scene::didYouMean(argv[1], names);
+        std::string list;
+        for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+        return "there is no subcommand " + scene::quoted(argv[1]) +
+               (near.empty() ? " among " + list : "; did you mean \"" + near + "\"?");
+    }
+    if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError) &&
+        !commands.empty()) {
+        const auto extras = commands.front()->remaining();
+        const auto option = std::find_if(extras.begin(), extras.end(), [](const std::string& one) {
+            return !one.empty() && one[0] == '-';
+        });
+        if (!extras.empty())
+            return unexpected(*commands.front(), option == extras.end() ? extras.front() : *option);
+    }
+    return error.what();
 }
 
 }  // namespace
@@ -60,7 +99,10 @@ int main(int argc, char** argv) {
         // A flag before the fault may not have been read yet.
         for (int i = 1; i < argc; ++i)
             if (std::string_view(argv[i]) == "--json") report.useJson();
-        report.fail("usage", std::string(error.what()) + " (farol --help says more)");
+        const auto commands = app.get_subcommands();
+        const std::string help = commands.empty() ? "farol" : "farol " + commands[0]->get_name();
+        report.fail("usage",
+                    usageFault(app, error, argc, argv) + " (" + help + " --help says more)");
         report.finish(kUsage);
         return kUsage;
     }

@@ -113,6 +113,14 @@ std::size_t countTriangles(const std::vector<std::string>& words, const scene::A
     return prepare(words, assets).triangles;
 }
 
+bool isMeshName(const std::string& fileName) {
+    constexpr std::string_view kEndings[] = {".3d", ".3db", ".obj", ".ply", ".tri", ".stl", ".off"};
+    const std::size_t dot = std::min(fileName.rfind('.'), fileName.size());
+    return std::any_of(std::begin(kEndings), std::end(kEndings), [&](std::string_view one) {
+        return scene::sameWord(one, std::string_view(fileName).substr(dot));
+    });
+}
+
 Mesh load(const scene::Model& model, const scene::Assets& assets, Diagnostics* findings) {
     using Kind = scene::ModelSource::Kind;
     const scene::ModelSource& source = model.source;

@@ -58,6 +58,9 @@ std::size_t countTriangles(const std::vector<std::string>& words, const scene::A
 /// not throw.
 void resolve(scene::Scene& scene, const scene::Assets& assets, Diagnostics& diagnostics);
 
+/// True for a name with the ending of a mesh file, but for .patch, which takes a level.
+bool isMeshName(const std::string& fileName);
+
 /// The mesh of a resolved model. Throws as generate and io::decodeMesh do; what was repaired in
 /// a mesh file is added to `findings` where it is given.
 Mesh load(const scene::Model& model, const scene::Assets& assets, Diagnostics* findings = nullptr);

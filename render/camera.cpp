@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/number.h"
+
 namespace farol::render {
 namespace {
 
@@ -76,7 +78,7 @@ scene::Camera chooseCamera(const scene::Scene& scene, const PictureOptions& opti
     if (!(glm::length(view) > 1e-12 * scale))
         fail("the camera's eye and target are the same point; move one of them", "eye");
     if (!(camera.far > camera.near))
-        fail("far must be more than near (" + std::to_string(camera.near) + ")", "far");
+        fail("far must be more than near (" + scene::formatNumber(camera.near) + ")", "far");
     return camera;
 }
 

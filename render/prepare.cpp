@@ -120,7 +120,7 @@ Prepared prepare(const Job& job) {
     Prepared prepared;
     prepared.assets = job.assets ? job.assets : std::make_shared<scene::BundleAssets>();
     const std::string kind = ending(job.name);
-    if (kind == "3d" || kind == "obj" || kind == "ply" || kind == "tri" || kind == "patch") {
+    if (generator::isMeshName(job.name) || kind == "patch") {
         const std::string base = job.name.substr(job.name.find_last_of("/\\") + 1);
         prepared.scene = sceneOfMesh(base);
         prepared.assets = std::make_shared<WithDocument>(base, job.xml, prepared.assets);

@@ -69,7 +69,7 @@ bool isCountedSoup(const NumberRows& rows, double said) {
     if (width < 3) return false;
     for (std::size_t i = 2; i < rows.rows.size(); ++i)
         if (rows.rows[i].count != width) return false;
-    const double perRow = width == 9 ? 3 : 1;  // vertices
+    const double perRow = width == 9 ? 3 : 1;                   // vertices
     const bool vertices = said == perRow * left && width != 3;  // positions alone: see below
     return vertices || 3 * said == perRow * left || said == width * left;
 }

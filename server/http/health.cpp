@@ -18,6 +18,8 @@ Health askHealth(const std::string& url, std::chrono::milliseconds patience) {
     client.set_read_timeout(patience);
     client.set_write_timeout(patience);
     const httplib::Result answer = client.Get("/readyz");
+    if (answer.error() == httplib::Error::Connection)
+        return {false, "nothing answers there: does the service run?"};
     if (!answer) return {false, "no answer: " + httplib::to_string(answer.error())};
     const std::string line =
         answer->body.substr(0, std::min<std::size_t>(answer->body.find('\n'), 200));

@@ -103,7 +103,7 @@ TEST_CASE("scenes come from stdin, and assets from where they are said to be") {
 
 TEST_CASE("a mesh file alone is drawn") {
     freshFolder("meshes");
-    for (const std::string name : {"m.3d", "m.obj", "m.ply"}) {
+    for (const std::string name : {"m.3d", "m.obj", "m.ply", "m.3db"}) {
         INFO(name);
         REQUIRE(run("generate torus 2 0.5 32 16 " + name).status == 0);
         const Image image = draw(name);

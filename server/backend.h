@@ -92,6 +92,7 @@ struct BackendState {
     int workers = 0, busy = 0, queued = 0;
     std::map<std::string, long> restarts;  ///< of workers, by reason, since the start
     long coalesced = 0;                    ///< pictures answered by one being drawn already
+    long retried = 0;                      ///< jobs begun again: their worker was killed
     long superseded = 0;                   ///< frames that a newer one of their session overtook
 };
 

@@ -103,6 +103,9 @@ std::string Metrics::text(const BackendState& backend, PictureCache::Counts pict
     head(out, "farol_coalesced_requests_total", "counter",
          "Pictures answered by one that was being drawn.");
     line(out, "farol_coalesced_requests_total", static_cast<double>(backend.coalesced));
+    head(out, "farol_retried_jobs_total", "counter",
+         "Jobs begun again because somebody killed their worker.");
+    line(out, "farol_retried_jobs_total", static_cast<double>(backend.retried));
     head(out, "farol_superseded_requests_total", "counter",
          "Frames that a newer one of their session overtook.");
     line(out, "farol_superseded_requests_total", static_cast<double>(backend.superseded));

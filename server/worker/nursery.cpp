@@ -5,7 +5,7 @@
 namespace farol::server::worker {
 namespace {
 
-constexpr std::chrono::milliseconds kFirstPause{100}, kLongestPause{5'000};
+constexpr std::chrono::milliseconds kFirstPause{10}, kLongestPause{5'000};
 
 }  // namespace
 

@@ -10,8 +10,9 @@ namespace {
 
 // How often an idle worker is looked at, so that one that died is replaced before it is needed.
 constexpr std::chrono::milliseconds kLook{200};
-// How long a request that met a lost worker waits for the next one.
-constexpr std::chrono::milliseconds kReplacement{2'000};
+// How often a request is begun whose worker somebody else kills. That is not the request's doing,
+// unless the kernel did it for want of memory: so not often.
+constexpr int kTries = 3;
 
 // A start takes a core for a quarter of a second: side by side pays up to a few.
 constexpr int kStarters = 4;
@@ -133,32 +134,43 @@ void WorkerPool::admit(const std::string& scene) {
 }
 
 Reply WorkerPool::askSlot(Slot& slot, const std::string& request, const std::string& scene) {
-    if (slot.process && !slot.process->alive()) drop(slot, "idle");
-    if (!slot.process && !ready(slot, kReplacement))
-        throw Busy("worker.crashed", "No worker could be started for this request.", 2);
-    ++slot.jobs;
-    try {
-        Reply reply = slot.process->call(request, options_.queue.deadline);
-        // A heap that was full once is not worth keeping.
-        if (reply.outcome == Outcome::memory)
-            drop(slot, "memory");
-        else if (!scene.empty())
-            quarantine_.success(scene);
-        return reply;
-    } catch (const WorkerLost& lost) {
-        using Why = WorkerLost::Why;
-        const bool fromOutside = lost.why() == Why::killed || lost.why() == Why::idle;
-        if (!fromOutside && !scene.empty()) quarantine_.strike(scene);
-        logger_.event("worker-lost", lost.what());
-        if (lost.why() == Why::late) {
-            drop(slot, "deadline");
-            throw Busy("busy.deadline", "The work was not done in time.", 1);
+    const Clock::time_point end = Clock::now() + options_.queue.deadline;
+    for (int tries = 1;; ++tries) {
+        if (slot.process && !slot.process->alive()) drop(slot, "idle");
+        if (!slot.process && !ready(slot, options_.replacement))
+            throw Busy("worker.crashed", "No worker could be started for this request.", 2);
+        ++slot.jobs;
+        try {
+            Reply reply = slot.process->call(
+                request, std::chrono::ceil<std::chrono::milliseconds>(end - Clock::now()));
+            // A heap that was full once is not worth keeping.
+            if (reply.outcome == Outcome::memory)
+                drop(slot, "memory");
+            else if (!scene.empty())
+                quarantine_.success(scene);
+            return reply;
+        } catch (const WorkerLost& lost) {
+            logger_.event("worker-lost", lost.what());
+            excuse(slot, lost, scene);
         }
-        drop(slot, fromOutside ? "killed" : "crash");
-        if (fromOutside)
-            throw Busy("worker.killed", "The worker that had this request was ended.", 1);
-        throw Busy("worker.crashed", "The worker that had this request crashed.", 1);
+        if (tries == kTries || Clock::now() >= end)
+            throw Busy("worker.killed", "The workers that had this request were ended.", 1);
+        ++retried_;
     }
+}
+
+// Returns where the request is not to blame, so that it may be begun again; else throws why not.
+void WorkerPool::excuse(Slot& slot, const WorkerLost& lost, const std::string& scene) {
+    using Why = WorkerLost::Why;
+    if (lost.why() == Why::killed || lost.why() == Why::idle) {
+        drop(slot, lost.why() == Why::idle ? "idle" : "killed");
+        return;
+    }
+    if (!scene.empty()) quarantine_.strike(scene);
+    const bool isLate = lost.why() == Why::late;
+    drop(slot, isLate ? "deadline" : "crash");
+    if (isLate) throw Busy("busy.deadline", "The work was not done in time.", 1);
+    throw Busy("worker.crashed", "The worker that had this request crashed.", 1);
 }
 
 Reply WorkerPool::judged(Reply reply) const {
@@ -313,6 +325,7 @@ void WorkerPool::check() { ask(pack(Request{}), ""); }
 BackendState WorkerPool::state() const {
     BackendState state = queue_.state();
     state.coalesced = coalesced_;
+    state.retried = retried_;
     const std::lock_guard lock(mutex_);
     state.workers = static_cast<int>(pids_.size());
     state.restarts = restarts_;

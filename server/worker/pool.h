@@ -22,14 +22,17 @@ struct PoolOptions {
     int workers = 1;
     QueueLimits queue;
     WorkerOptions worker;
-    int spares = 1;                        ///< processes kept ready to take a lost one's place
-    int recycleAfter = 1'000;              ///< jobs a process does before it is replaced
+    int spares = 1;            ///< processes kept ready to take a lost one's place
+    int recycleAfter = 1'000;  ///< jobs a process does before it is replaced
+    /// How long a request that met a lost worker waits for the next one.
+    std::chrono::milliseconds replacement{1'000};
     std::chrono::seconds quarantine{600};  ///< for a scene that ended two workers
 };
 
 /// Does all work in sandboxed processes. One that crashes, hangs or has done its share is
-/// replaced; the job it had gets Busy worker.crashed, worker.killed or busy.deadline, no other
-/// job notices.
+/// replaced; the job it had gets Busy worker.crashed or busy.deadline, no other job notices. One
+/// whose worker was killed from outside is begun again, up to three times, then gets Busy
+/// worker.killed.
 class WorkerPool final : public Backend {
   public:
     /// Starts the workers and waits until one can draw, or has said why it cannot (which goes to
@@ -71,6 +74,7 @@ class WorkerPool final : public Backend {
     void drop(Slot& slot, const std::string& reason);
     Done<Reply> ask(std::string packed, const std::string& scene, const Turn& turn = {});
     Reply askSlot(Slot& slot, const std::string& request, const std::string& scene);
+    void excuse(Slot& slot, const WorkerLost& lost, const std::string& scene);
     Reply judged(Reply reply) const;
     Done<render::Picture> draw(const render::Job& job, std::string packed, const Turn& turn);
     void admit(const std::string& scene);
@@ -88,7 +92,7 @@ class WorkerPool final : public Backend {
     std::map<std::string, long> restarts_;
     std::map<int, pid_t> pids_;
     std::map<std::string, Shared> inFlight_;
-    std::atomic<long> coalesced_{0};
+    std::atomic<long> coalesced_{0}, retried_{0};
     std::vector<std::thread> threads_;
 };
 

@@ -125,8 +125,8 @@ void WorkerProcess::lost(Channel::Result result) {
         end();
         throw WorkerLost(WorkerLost::Why::late, "a worker was ended at its deadline");
     }
-    // The socket closes a moment before the process can be waited for.
-    for (int i = 0; i < 100 && alive(); ++i) usleep(1'000);
+    // The socket closes before the process can be waited for: a moment, or long on a busy machine.
+    for (int i = 0; i < 3'000 && alive(); ++i) usleep(1'000);
     const std::optional<int> status = end();
     if (!status) throw WorkerLost(WorkerLost::Why::crash, "a worker closed its socket");
     if (!WIFSIGNALED(*status))

@@ -51,6 +51,8 @@ std::string shaderCache() {
     from("MESA_GLSL_CACHE_DIR", "mesa_shader_cache");
     from("XDG_CACHE_HOME", "mesa_shader_cache");
     from("HOME", ".cache/mesa_shader_cache");
+    // Mesa asks the password file for the home folder, never HOME, and that file is closed here.
+    if (!folder.empty()) setenv("MESA_SHADER_CACHE_DIR", folder.parent_path().c_str(), 0);
     std::error_code ignored;  // without a cache Mesa compiles every time
     if (!folder.empty()) fs::create_directories(folder, ignored);
     return folder.string();

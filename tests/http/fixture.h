@@ -34,7 +34,7 @@ class FakeBackend final : public server::Backend {
     server::Done<server::GradeReply> grade(const server::GradeJob& job) override;
     server::Done<server::CompareReply> compare(const server::CompareJob& job) override;
     void check() override;
-    server::BackendState state() const override { return {1, 0, 0, {}, 0, 0}; }
+    server::BackendState state() const override { return {1, 0, 0, {}, 0, 0, 0}; }
     std::string version() const override { return name; }
 };
 

@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <catch2/catch.hpp>
+#include <filesystem>
 #include <fstream>
 #include <thread>
 
@@ -29,6 +30,7 @@ PoolOptions options(int workers = 1) {
     options.workers = workers;
     options.queue = {16, 60s, 60s};
     options.worker.program = FAROL_BINARY;
+    options.replacement = 60s;
     options.spares = 0;  // so that a test knows which processes there are
     return options;
 }
@@ -81,10 +83,11 @@ bool exists(pid_t pid) { return kill(pid, 0) == 0; }
 
 }  // namespace
 
-TEST_CASE("a worker that is killed costs one request and is replaced") {
+TEST_CASE("a request whose worker is killed from outside is drawn by the next one") {
     WorkerPool pool(options(), quiet());
-    CHECK(codeWhenHit(pool, boxJob(), SIGKILL) == "worker.killed");
+    CHECK(codeWhenHit(pool, boxJob(), SIGKILL) == "done");
     CHECK(restarts(pool, "killed") == 1);
+    CHECK(pool.state().retried == 1);
     CHECK(pool.render(boxJob(), "", {}).result.bytes.size() > 50);
     // One that dies while nobody needs it costs nothing.
     const pid_t idle = pool.pids().at(0);
@@ -92,6 +95,27 @@ TEST_CASE("a worker that is killed costs one request and is replaced") {
     while (restarts(pool, "idle") == 0) std::this_thread::sleep_for(1ms);
     CHECK(codeOf([&] { pool.check(); }) == "done");
     CHECK(pool.pids().at(0) != idle);
+}
+
+TEST_CASE("a request whose workers are killed again and again is given up, and blamed for none") {
+    WorkerPool pool(options(), quiet());
+    render::Job job = boxJob();
+    job.options.width = job.options.height = 4000;
+    job.options.samples = 16;  // takes seconds: the killer comes in time
+    for (int round = 1; round <= 2; ++round) {
+        std::atomic<bool> isOver{false};
+        std::thread killer([&] {
+            while (!isOver)
+                if (pool.state().busy > 0)
+                    for (const pid_t pid : pool.pids()) kill(pid, SIGKILL);
+        });
+        CHECK(codeOf([&] { pool.render(job, "", {}); }) == "worker.killed");
+        isOver = true;
+        killer.join();
+        CHECK(pool.state().retried == 2 * round);
+        CHECK(restarts(pool, "killed") + restarts(pool, "idle") >= 3 * round);
+    }
+    CHECK(codeOf([&] { pool.render(boxJob(), "", {}); }) == "done");  // no quarantine
 }
 
 TEST_CASE("a worker that hangs is ended at the deadline") {
@@ -250,7 +274,9 @@ TEST_CASE("a worker can neither reach out nor write nor read what is not a scene
     folder.write("scenes/a.xml", "<world/>");
     folder.write("secret", "of somebody");
     const std::string scenes = folder.path() + "/scenes", secret = folder.path() + "/secret";
-    const std::string command = std::string(FAROL_BINARY) + " worker --scenes '" + scenes +
+    const std::string home = folder.path() + "/home";
+    const std::string command = "env -u MESA_SHADER_CACHE_DIR -u XDG_CACHE_HOME HOME='" + home +
+                                "' " + FAROL_BINARY + " worker --scenes '" + scenes +
                                 "' --memory 2147483648 --self-test '" + secret + "'";
     FILE* pipe = popen(command.c_str(), "r");
     REQUIRE(pipe != nullptr);
@@ -276,6 +302,8 @@ TEST_CASE("a worker can neither reach out nor write nor read what is not a scene
         CHECK(came != "done");
     }
     CHECK(said["tried"].size() >= 20);
+    // Mesa found its cache, without which every start compiles all shaders.
+    CHECK(std::filesystem::exists(home + "/.cache/mesa_shader_cache/index"));
     std::ifstream secretFile(secret);
     std::string content;
     std::getline(secretFile, content);

@@ -13,7 +13,7 @@ def note(data):
 
 def draw(suite, data, folder):
     for name, plot in {"quality": quality, "scale": scale, "stages": stages,
-                       "encoders": encoders, "peers": peers}[suite](data):
+                       "encoders": encoders, "peers": peers, "load": load}[suite](data):
         (folder / f"{name}.svg").write_text(plot.svg())
 
 
@@ -121,3 +121,20 @@ def peers(data):
         yield f"peers-{scene}-{kind}-{size}", Bars(
             f"{PEER_SCENES[scene]}, {size}: {what}", "ms (medians)",
             [(row["program"], {"ms": row["ms"]}) for row in rows], note=note(data))
+
+
+def load(data):
+    rows = data["results"]
+    pictures = Plot("Pictures a second, each from another side", "connections", "a second", True,
+                    note=note(data))
+    drawn = [row for row in rows if row["load"] == "drawn"]
+    pictures.add("served", [(row["connections"], row["perSecond"]) for row in drawn], line=True)
+    pictures.add("bare frames and PNGs on the same cores",
+                 [(row["connections"], row["idealPerSecond"]) for row in drawn], dash=True)
+    yield "load-drawn", pictures
+    cheap = Plot("Answers without a worker", "connections", "a processor second of the parent", True,
+                 note=note(data))
+    for kind in ("304", "cached"):
+        cheap.add(kind, [(row["connections"], row["perCpuSecond"]) for row in rows
+                         if row["load"] == kind], line=True)
+    yield "load-answered", cheap

@@ -10,6 +10,7 @@ import re
 import shutil
 import subprocess
 import sys
+import tempfile
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -166,6 +167,30 @@ class Manifests(unittest.TestCase):
                 for metric in re.findall(r"\bfarol_\w+", rule["expr"]):
                     self.assertIn(re.sub("_bucket$", "", metric), known, rule["alert"])
         self.assertGreaterEqual(len(names), 8)
+
+    def test_the_alerts_fire_on_what_they_are_for(self):
+        promtool = shutil.which("promtool") or shutil.which(str(ROOT / "build/docker/promtool"))
+        if not promtool:
+            self.skipTest("there is no promtool (scripts/setup docker)")
+        rules = yaml.safe_load((DOCKER / "alerts.yaml").read_text())["groups"][0]["rules"]
+        cases = (ROOT / "tests" / "docker" / "alerts_test.yaml").read_text()
+        for rule in rules:
+            self.assertGreaterEqual(cases.count(f"alertname: {rule['alert']}\n"), 1, "no test fires it")
+        with tempfile.TemporaryDirectory() as folder:
+            here = pathlib.Path(folder)
+            settings = (DOCKER / "prometheus.yaml").read_text()
+            self.assertIn("/etc/prometheus/alerts.yaml", settings)
+            (here / "prometheus.yaml").write_text(settings.replace("/etc/prometheus/", ""))
+            (here / "alerts_test.yaml").write_text(cases)
+            alerts = (DOCKER / "alerts.yaml").read_text()
+            # The second time with alerts that never fire: the cases must see it.
+            for text, code in ((alerts, 0), (alerts.replace("> 0.85", "> 1.85"), 1)):
+                (here / "alerts.yaml").write_text(text)
+                done = run(promtool, "check", "config", "prometheus.yaml", cwd=here)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                self.assertIn("SUCCESS", done.stdout)
+                done = run(promtool, "test", "rules", "alerts_test.yaml", cwd=here)
+                self.assertEqual(done.returncode, code, done.stdout + done.stderr)
 
     def test_kubernetes_schemas(self):
         if SCRATCH is None:

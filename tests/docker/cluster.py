@@ -127,14 +127,14 @@ class Proxy(Process):
 
     def __init__(self, ports, slots, queue_s=60):
         super().__init__()
-        self.port = free_port()
+        self.port, self.operator = free_port(), free_port()
         lines = []
         for line in (ROOT / "docker" / "haproxy.cfg").read_text().splitlines():
             if line.strip().startswith("server-template "):
                 lines += [f"    server renderer{i} 127.0.0.1:{port}"
                           for i, port in enumerate(ports)]
             else:
-                for shipped, here in ((':8080"', f':{self.port}"'), (':8404"', f':{free_port()}"'),
+                for shipped, here in ((':8080"', f':{self.port}"'), (':8404"', f':{self.operator}"'),
                                       ("timeout server 15s", "timeout server 130s"),
                                       ("timeout client 30s", "timeout client 130s"),
                                       ("timeout check 5s", "timeout check 60s"),

@@ -4,6 +4,7 @@ import collections
 import json
 import os
 import pathlib
+import re
 import signal
 import sys
 import tempfile
@@ -11,7 +12,7 @@ import threading
 import time
 import unittest
 
-from cluster import Cluster, Proxy, get, many, needed, send, wait_for
+from cluster import ROOT, Cluster, Proxy, get, many, needed, send, wait_for
 
 SIZE = "width=32&height=32&aa=1"
 
@@ -166,6 +167,13 @@ class Behind(unittest.TestCase):
             codes[json.loads(body)["code"]] += 1
         self.assertGreater(codes["busy.queue"], 0)
         print(f"overload: {dict(codes)}", flush=True)
+        # What docker/alerts.yaml asks the proxy for.
+        metrics = get(impatient.operator, "/metrics")[2].decode()
+        rules = (ROOT / "docker" / "alerts.yaml").read_text()
+        for asked in set(re.findall(r"haproxy_\w+{[^}]*", rules)):
+            told = re.search(f"^{re.escape(asked)}}} (\\d+)$", metrics, re.M)
+            self.assertTrue(told, asked)
+            self.assertGreaterEqual(int(told.group(1)), codes["busy.queue"])
         self.cluster.all_ready()
         wait_for("pictures again", lambda: set(
             self.cluster.get(f"/v1/scenes/{one}/image?{SIZE}")[0] for one in ids) == {200})

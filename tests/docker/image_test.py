@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Builds the image from a debootstrapped base and runs it closed in: image_test.py SCRATCH FAROL
-FAROL is the program of this machine, to compare a picture by. $FAROL_DOCKER_BASE: a folder with a
+FAROL is the program of this machine, to compare pictures by. $FAROL_DOCKER_BASE: a folder with a
 Debian 12, instead of debootstrap; $FAROL_DOCKER_IMAGE: an image that is there, instead of a build.
 Buildah and podman as root; standard library only."""
 import json
@@ -24,6 +24,8 @@ CLOSED = ["--runtime", "runc", "--read-only", "--read-only-tmpfs=false", "--cap-
           "nproc=4096:4096", "--no-healthcheck"]
 TMP = ["--tmpfs", "/tmp:rw,size=64m,mode=1777"]
 MOST_MB = 250
+TEXTURED = ('<world><camera><position x="0" y="2" z="0.01"/><lookAt x="0" y="0" z="0"/></camera><group>'
+            '<models><model file="plane_2_1.3d"><texture file="{}"/></model></models></group></world>')
 HOG = (b'<world><camera><position x="0" y="0" z="4"/><lookAt x="0" y="0" z="0"/></camera><group>'
        b'<models><model file="sphere_1_1500_1500.3d"/></models></group></world>')
 
@@ -148,6 +150,45 @@ class Image(unittest.TestCase):
             self.assertLess(told["mean"], 0.05)
             self.assertGreater(told["ssim"], 0.999)
 
+    def test_every_kind_of_picture_is_read(self):
+        """Libraries that are stand-ins in the image are called for none of them."""
+        with tempfile.TemporaryDirectory() as folder:
+            os.chmod(folder, 0o777)
+            here = pathlib.Path(folder)
+            pictures = sorted((ROOT / "tests" / "fuzz" / "seeds" / "image").iterdir())
+            self.assertGreaterEqual({one.suffix for one in pictures}, {
+                ".bmp", ".gif", ".hdr", ".jpg", ".png", ".ppm", ".tga", ".tif", ".webp"})
+            seen = set()
+            with Container("-v", f"{folder}:/data", network="none") as service:
+                for one in pictures:
+                    shutil.copy(one, here)
+                    (here / "scene.xml").write_text(TEXTURED.format(one.name))
+                    flags = ("--strict", "--width", "64", "--height", "64", "-o")
+                    done = service.exec("render", "/data/scene.xml", *flags, "/data/in.png")
+                    self.assertEqual(done.returncode, 0, one.name + done.stderr)
+                    must(HOST_FAROL, "render", str(here / "scene.xml"), *flags, str(here / "out.png"))
+                    told = json.loads(must(HOST_FAROL, "compare", "--json", str(here / "in.png"),
+                                           str(here / "out.png")))
+                    self.assertLess(told["mean"], 0.05, one.name)
+                    seen.add((here / "in.png").read_bytes())
+            self.assertGreaterEqual(len(seen), 8, "they all look alike")
+
+    def test_built_again_it_is_the_same(self):
+        if "FAROL_DOCKER_IMAGE" in os.environ:
+            self.skipTest("this image was not built here")
+        again = "localhost/farol:again"
+        # Any other value is another step to buildah, which has no such layer yet; all is compiled.
+        build(again, "--build-arg", f"CCACHE_RECACHE=at-{time.time_ns()}")
+        self.addCleanup(run, "podman", "rmi", "-f", again)
+        one, other = (json.loads(must("podman", "image", "inspect", tag))[0]
+                      for tag in (TAG, again))
+        if one["Id"] != other["Id"]:
+            folders = [must("podman", "image", "mount", tag).strip() for tag in (TAG, again)]
+            told = run("diff", "-rq", *folders).stdout
+            run("podman", "image", "unmount", TAG, again)
+            self.fail(f"{one['RootFS']} {other['RootFS']}\n{told}")
+        print(f"twice {one['Id']}, layer {one['RootFS']['Layers'][-1]}", flush=True)
+
     def test_it_runs_closed_in_and_is_healthy_without_a_network(self):
         with Container(network="none") as service:
             print(f"healthy {service.start_s:.1f} s after podman run", flush=True)
@@ -192,22 +233,34 @@ class Image(unittest.TestCase):
 
     def test_a_hog_fails_alone_under_a_small_memory_limit(self):
         xml = {"Content-Type": "application/xml"}
-        for name, limit, cap in (("the worker's own cap", "640m", "300"),
-                                 ("the container's limit", "320m", "0")):
+        for name, limit, cap in (("the worker's own cap", "960m", "300"),
+                                 ("the container's limit", "480m", "0")):
             with self.subTest(name), Container(
                     "--memory", limit, "--memory-swap", limit,
-                    env={"FAROL_WORKER_MEMORY": cap, "FAROL_WORKERS": "1", "FAROL_SPARES": "0",
-                         "FAROL_DEADLINE": "60"}) as service:
-                pid = service.state()["Pid"]
-                status, headers, body = send(service.port, "POST", "/v1/render", HOG, xml,
-                                             timeout=120)
-                print(f"{name}: {status} {json.loads(body)['code'] if status != 200 else ''}",
-                      flush=True)
+                    env={"FAROL_WORKER_MEMORY": cap, "FAROL_WORKERS": "2", "FAROL_SPARES": "0",
+                         "FAROL_WAIT": "60", "FAROL_DEADLINE": "60",
+                         "FAROL_CACHE_BYTES": "0"}) as service:
+                pid, ended, others = service.state()["Pid"], threading.Event(), []
+
+                def neighbour():
+                    while not ended.is_set() or len(others) < 5:
+                        others.append(get(service.port, "/v1/scenes/primitives/image?width=64"
+                                          f"&height=64&azimuth={len(others) % 360}")[0])
+
+                client = threading.Thread(target=neighbour)
+                client.start()
+                try:
+                    status, headers, body = send(service.port, "POST", "/v1/render", HOG, xml,
+                                                 timeout=120)
+                finally:
+                    ended.set()
+                    client.join()
+                print(f"{name}: {status} {json.loads(body)['code'] if status != 200 else ''}, "
+                      f"{len(others)} pictures beside it", flush=True)
                 self.assertIn(status, (422, 503))
                 if status == 503:
                     self.assertTrue(headers["Retry-After"])
-                wait_for("other pictures", lambda: get(
-                    service.port, "/v1/scenes/primitives/image?width=64&height=64")[0] == 200)
+                self.assertEqual(set(others), {200})
                 self.assertEqual(service.state()["Pid"], pid)
 
 

@@ -72,7 +72,7 @@ class Played(unittest.TestCase):
         def state():
             return json.loads(must("podman", "inspect", name))[0]["State"]
         wait_for("the pod is ready", lambda: get(8080, "/readyz")[0] == 200, 120)
-        self.assertEqual(json.loads(get(8080, "/readyz")[2]).get("store", "reached"), "reached")
+        self.assertEqual(json.loads(get(8080, "/readyz")[2])["store"], "reachable")
         # The settings are the ConfigMap's.
         self.assertIn(b"farol_workers 2\n", get(8080, "/metrics")[2])
         status = dict(line.split(":\t", 1) for line in

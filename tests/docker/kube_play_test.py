@@ -32,16 +32,15 @@ def must(*words):
 
 
 def played(image):
-    """The Deployment's pod and its ConfigMap. Not podman's: probes by HTTP, which it makes by curl in
-    the container; and a name for the Redis, which a cluster's names would give."""
+    """The Deployment's pod and its ConfigMap. Without probes by HTTP, which podman makes by curl in the
+    container, and ports, which it does not know on the host's network."""
     objects = list(yaml.safe_load_all(must("kubectl", "kustomize", str(ROOT / "docker"))))
     template = next(one for one in objects if one["kind"] == "Deployment"
                     and one["metadata"]["name"] == "farol-renderer")["spec"]["template"]
     container = template["spec"]["containers"][0]
-    for probe in ("startupProbe", "readinessProbe", "livenessProbe"):
-        container.pop(probe)
+    for field in ("startupProbe", "readinessProbe", "livenessProbe", "ports"):
+        container.pop(field)
     container["image"] = image
-    template["spec"]["hostAliases"] = [{"ip": "127.0.0.1", "hostnames": ["farol-store"]}]
     used = {one["configMap"]["name"] for one in template["spec"]["volumes"] if "configMap" in one}
     settings = [one for one in objects
                 if one["kind"] == "ConfigMap" and one["metadata"]["name"] in used]
@@ -58,6 +57,11 @@ class Played(unittest.TestCase):
         settings = pathlib.Path(folder.name) / "containers.conf"
         settings.write_text(SETTINGS)
         os.environ["CONTAINERS_CONF"] = str(settings)
+        # The name of the Redis, which a cluster would know; podman takes the host's file.
+        names = pathlib.Path(folder.name) / "hosts"
+        names.write_text("127.0.0.1 localhost farol-store\n")
+        must("mount", "--bind", str(names), "/etc/hosts")
+        self.addCleanup(must, "umount", "/etc/hosts")
         redis = subprocess.Popen(["redis-server", "--bind", "127.0.0.1", "--save", "", "--logfile",
                                   "/dev/null"], executable=redis_program())
         self.addCleanup(redis.wait)

@@ -234,7 +234,7 @@ class Image(unittest.TestCase):
     def test_a_hog_fails_alone_under_a_small_memory_limit(self):
         xml = {"Content-Type": "application/xml"}
         for name, limit, cap in (("the worker's own cap", "960m", "300"),
-                                 ("the container's limit", "480m", "0")):
+                                 ("the container's limit", "360m", "0")):
             with self.subTest(name), Container(
                     "--memory", limit, "--memory-swap", limit,
                     env={"FAROL_WORKER_MEMORY": cap, "FAROL_WORKERS": "2", "FAROL_SPARES": "0",

@@ -1,16 +1,24 @@
 #!/usr/bin/env python3
 """Pictures a second of 1, 2 and 3 renderers of one worker behind the proxy, interleaved, beside the
-ideal, which is as many cores as there are: throughput.py BINARY [SECONDS each] [ROUNDS]"""
+ideal, which is as many cores as there are: throughput.py BINARY [SECONDS each] [ROUNDS]
+Scenes that cost the same, warm where they are placed, every picture from another side; more clients
+than the workers can answer, so that none waits for work."""
 import itertools
 import os
+import pathlib
 import statistics
 import sys
+import tempfile
 import threading
 import time
 
 from cluster import Cluster, get, needed
 
 PATH = "/v1/scenes/{}/image?width=256&height=256&azimuth={}"
+SCENES = 48  # enough for the hash to share them out
+SCENE = ('<world><camera><position x="3" y="2" z="4"/><lookAt x="0" y="0" z="0"/></camera><group>'
+         '<transform><scale x="{}" y="1" z="1"/></transform><models>'
+         '<model file="torus_1_0.4_64_32.3d"/></models></group></world>')
 
 
 def rate(cluster, ids, seconds, clients):
@@ -38,12 +46,15 @@ def main():
     # One thread a frame, so that a renderer is one core's worth.
     os.environ["LP_NUM_THREADS"] = "0"
     rates = {count: [] for count in (1, 2, 3)}
-    for _ in range(rounds):
-        for count in rates:
-            with Cluster(sys.argv[1], count, "--cache-bytes", 0) as cluster:
+    with tempfile.TemporaryDirectory() as scenes:
+        for number in range(SCENES):
+            (pathlib.Path(scenes) / f"s{number}.xml").write_text(SCENE.format(1 + number / 1000))
+        for _, count in itertools.product(range(rounds), rates):
+            with Cluster(sys.argv[1], count, "--cache-bytes", 0, scenes=scenes) as cluster:
                 ids = cluster.scene_ids()
-                rate(cluster, ids, 2, 2 * count)
-                rates[count].append(rate(cluster, ids, seconds, 2 * count))
+                for one in ids:
+                    get(cluster.proxy.port, PATH.format(one, 1))
+                rates[count].append(rate(cluster, ids, seconds, 6 * count))
     one, cores = statistics.median(rates[1]), os.cpu_count()
     for count, all_ in rates.items():
         mine, ideal = statistics.median(all_), min(count, cores)

@@ -16,7 +16,7 @@ import unittest
 
 from cluster import ROOT, free_port, get, send, skip, wait_for
 
-SCRATCH, HOST_FAROL = pathlib.Path(sys.argv[1]), sys.argv[2]
+SCRATCH, HOST_FAROL = pathlib.Path(sys.argv[1]).resolve(), str(pathlib.Path(sys.argv[2]).resolve())
 BASE, TAG = "localhost/farol-base", "localhost/farol:test"
 SCENES = "/usr/share/farol/scenes"
 CLOSED = ["--runtime", "runc", "--read-only", "--read-only-tmpfs=false", "--cap-drop", "all",
@@ -31,7 +31,9 @@ HOG = (b'<world><camera><position x="0" y="0" z="4"/><lookAt x="0" y="0" z="0"/>
 
 
 def run(*words, timeout=600):
-    return subprocess.run(words, capture_output=True, text=True, timeout=timeout)
+    # Where memory runs out, podman's monitor leaves a file "oom" in the folder it was started in.
+    SCRATCH.mkdir(parents=True, exist_ok=True)
+    return subprocess.run(words, capture_output=True, text=True, timeout=timeout, cwd=SCRATCH)
 
 
 def must(*words, timeout=7200):

@@ -13,7 +13,7 @@ def note(data):
 
 def draw(suite, data, folder):
     for name, plot in {"quality": quality, "scale": scale, "stages": stages,
-                       "encoders": encoders, "peers": peers, "load": load}[suite](data):
+                       "encoders": encoders, "peers": peers, "load": load, "grade": grade}[suite](data):
         (folder / f"{name}.svg").write_text(plot.svg())
 
 
@@ -138,3 +138,14 @@ def load(data):
         cheap.add(kind, [(row["connections"], row["perCpuSecond"]) for row in rows
                          if row["load"] == kind], line=True)
     yield "load-answered", cheap
+
+
+def grade(data):
+    plot = Plot("memory while a class is graded", "time, s", "resident, MiB", False, False,
+                note=note(data))
+    last = {row["rubric"]: row for row in data["results"]}
+    for name, row in last.items():
+        for key, what in (("workersMiB", f"both workers, {name} rubric"), ("parentMiB", "the rest")):
+            if key == "workersMiB" or name == "default":
+                plot.add(what, [(one["atS"], one[key]) for one in row["memory"]])
+    yield "grade-memory", plot

@@ -13,7 +13,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT))
-from bench import front, load, peers, scenes  # noqa: E402
+from bench import front, grade, load, peers, scenes  # noqa: E402
 from bench.plots import draw  # noqa: E402
 
 QUALITY_SCENES = ["teapots", "house", "solar-system", "carousel", "forest", "primitives",
@@ -155,7 +155,7 @@ def encoders(bench, progress):
 
 SUITES = {"quality": (quality, 360, 60), "scale": (scale, 240, 60), "stages": (stages, 90, 15),
           "encoders": (encoders, 40, 8), "peers": (peers.run, 90, 30),
-          "load": (load.run, 260, 25)}
+          "load": (load.run, 260, 25), "grade": (grade.run, 90, 10)}
 
 
 def main():

@@ -25,22 +25,39 @@ std::string packed(const server::GradeReply& reply) {
     return out;
 }
 
-void unpackInto(grade::TaskResult& task, const std::string& bytes) {
+/// False where the bytes are not a whole result.
+bool unpackInto(grade::TaskResult& task, const std::string& bytes) {
     std::size_t at = bytes.find('\n');
     task.json = bytes.substr(0, at);
-    while (at != std::string::npos && ++at < bytes.size()) {
+    if (at == std::string::npos || !nlohmann::json::accept(task.json)) return false;
+    while (++at < bytes.size()) {
         const std::size_t end = bytes.find('\n', at);
-        if (end == std::string::npos) return;
+        if (end == std::string::npos) return false;
         const std::size_t size = std::strtoul(bytes.c_str() + at, nullptr, 10);
+        if (size > bytes.size() - end - 1) return false;
         task.pictures.push_back(bytes.substr(end + 1, size));
         at = end + size;
     }
+    return true;
 }
 
-/// True if a result's file is whole: a run may have been ended while it was written elsewhere.
+/// True where an earlier run left the result: a machine that lost power may have left a part of it.
 bool isWhole(const std::string& path) {
-    std::error_code failed;
-    return std::filesystem::file_size(path, failed) > 2 && !failed;
+    grade::TaskResult kept;
+    return std::filesystem::exists(path) && unpackInto(kept, readInput(path));
+}
+
+/// Asks again where the worker is lost or its memory full: that may be what earlier submissions left
+/// in it, and the next worker is a fresh one. Who is late is not asked again.
+server::GradeReply ask(server::Backend& backend, const server::GradeJob& job) {
+    try {
+        return backend.grade(job).result;
+    } catch (const server::Busy& busy) {
+        if (!busy.code().starts_with("worker.")) throw;
+    } catch (const Error& error) {
+        if (error.code() != "limit.memory") throw;
+    }
+    return backend.grade(job).result;
 }
 
 std::string digestOf(const grade::Subject& subject) {
@@ -100,15 +117,21 @@ BatchTimes Batch::run() {
     // One more than workers, so that each finds its next job waiting.
     for (int i = 0; i <= options_.jobs; ++i)
         threads.emplace_back([&] {
-            for (std::size_t at = next++; at < entries_.size(); at = next++) {
+            for (std::size_t at = next++; at < entries_.size() && !failed(); at = next++) {
                 gradeOne(at / names_.size(), at % names_.size());
                 const std::size_t count = ++done;
                 if (options_.progress) options_.progress(count, entries_.size());
             }
         });
     for (std::thread& thread : threads) thread.join();
+    if (fault_) std::rethrow_exception(fault_);
     times_.wallMs = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
     return times_;
+}
+
+bool Batch::failed() {
+    const std::lock_guard lock(mutex_);
+    return fault_ != nullptr;
 }
 
 void Batch::gradeOne(std::size_t submission, std::size_t task) {
@@ -126,7 +149,7 @@ void Batch::gradeOne(std::size_t submission, std::size_t task) {
             ++times_.kept;
             return;
         }
-        const server::GradeReply reply = backend_.grade(job).result;
+        const server::GradeReply reply = ask(backend_, job);
         writeOutput(file, packed(reply));
         entry.file = file;
         const std::lock_guard lock(mutex_);
@@ -143,7 +166,9 @@ void Batch::gradeOne(std::size_t submission, std::size_t task) {
                             ? "The submission took too long and was ended."
                             : "The submission ended the process that graded it.";
     } catch (const OutputError&) {
-        throw;
+        // The run cannot go on, and another thread may not throw.
+        const std::lock_guard lock(mutex_);
+        fault_ = std::current_exception();
     } catch (const std::exception& fault) {
         entry.code = "internal";
         entry.failure = scene::shown(fault.what());

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <exception>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -39,6 +40,7 @@ class Batch {
     struct Task;
     std::string keyOf(const grade::Subject& subject, const Task& task) const;
     void gradeOne(std::size_t submission, std::size_t task);
+    bool failed();
     grade::SubmissionResult load(std::size_t submission) const;
 
     server::Backend& backend_;
@@ -53,6 +55,7 @@ class Batch {
     std::vector<Entry> entries_;  ///< by submission, then task
     BatchTimes times_;
     double most_ = 0, passMark_ = 0;
+    std::exception_ptr fault_;  ///< that ends the run: results cannot be written
     std::mutex mutex_;
 };
 

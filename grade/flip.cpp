@@ -5,13 +5,15 @@
 #include <cmath>
 #include <cstdint>
 
+#include "grade/compare.h"
+
 namespace farol::grade {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-// The paper's constants: exponents and shares of the colour map, of the features, and their width.
-constexpr float kQc = 0.7F, kPc = 0.4F, kPt = 0.95F, kQf = 0.5F;
+// The paper's constants: exponent and shares of the colour map, width of the features.
+constexpr float kQc = 0.7F, kPc = 0.4F, kPt = 0.95F;
 constexpr double kFeatureWidthDeg = 0.082;
 
 /// Linear RGB (sRGB primaries) to XYZ, each divided by that of white (D65: the row's sum).
@@ -116,13 +118,22 @@ constexpr Sensitivity kAchromatic{1.0, 0.0047, 0.0, 1e-5};
 constexpr Sensitivity kRedGreen{1.0, 0.0053, 0.0, 1e-5};
 constexpr Sensitivity kBlueYellow{34.1, 0.04, 13.5, 0.025};
 
-Plane sensed(const Plane& channel, const Sensitivity& of, double pixelsPerDegree) {
-    const int radius = static_cast<int>(
+/// What lies farther out weighs less than a float's last place.
+constexpr double kSigmas = 6.0;
+
+/// The wide filter's reach in px: three of its deviations.
+int reachOf(double pixelsPerDegree) {
+    return static_cast<int>(
         std::ceil(3.0 * std::sqrt(kBlueYellow.b1 / (2.0 * kPi * kPi)) * pixelsPerDegree));
+}
+
+Plane sensed(const Plane& channel, const Sensitivity& of, double pixelsPerDegree) {
+    const int radius = reachOf(pixelsPerDegree);
     // exp(-pi^2 d^2 / b) with d in degrees is a Gaussian of this many pixels.
     const auto sigma = [&](double b) { return pixelsPerDegree * std::sqrt(b / 2.0) / kPi; };
     if (of.a2 == 0.0) {
-        const std::vector<float> weights = gaussian(sigma(of.b1), radius);
+        const std::vector<float> weights = gaussian(
+            sigma(of.b1), std::min(radius, static_cast<int>(std::ceil(kSigmas * sigma(of.b1)))));
         return filter(channel, weights, weights);
     }
     const auto total = [&](double a, double b) {
@@ -159,11 +170,12 @@ std::vector<float> derivative(bool second, double sigma, int radius) {
     return scaled;
 }
 
-/// The length of what the filter finds across and down.
-Plane magnitude(const Plane& luminance, const std::vector<float>& found,
+/// The length of what the filter finds across and down; `smoothed` is the luminance, smoothed
+/// across.
+Plane magnitude(const Plane& luminance, const Rows& smoothed, const std::vector<float>& found,
                 const std::vector<float>& smooth) {
     Plane out = filter(luminance, found, smooth);
-    const Plane down = filter(luminance, smooth, found);
+    const Plane down = filterDown(smoothed, found);
     for (std::size_t i = 0; i < out.values.size(); ++i)
         out.values[i] = std::sqrt(out.values[i] * out.values[i] + down.values[i] * down.values[i]);
     return out;
@@ -188,8 +200,9 @@ FlipPicture::FlipPicture(const FloatImage& picture, double pixelsPerDegree) {
     const double sigma = 0.5 * kFeatureWidthDeg * pixelsPerDegree;
     const int radius = static_cast<int>(std::ceil(3.0 * sigma));
     const std::vector<float> smooth = gaussian(sigma, radius);
-    edges = magnitude(opponent[0], derivative(false, sigma, radius), smooth);
-    points = magnitude(opponent[0], derivative(true, sigma, radius), smooth);
+    const Rows smoothed = filterAcross(opponent[0], smooth);
+    edges = magnitude(opponent[0], smoothed, derivative(false, sigma, radius), smooth);
+    points = magnitude(opponent[0], smoothed, derivative(true, sigma, radius), smooth);
 
     lab = {sensed(opponent[0], kAchromatic, pixelsPerDegree),
            sensed(opponent[1], kRedGreen, pixelsPerDegree),
@@ -203,33 +216,78 @@ FlipPicture::FlipPicture(const FloatImage& picture, double pixelsPerDegree) {
     }
 }
 
-Plane flip(const FlipPicture& reference, const FlipPicture& test) {
-    requireSameSize(reference.edges.width, reference.edges.height, test.edges.width,
-                    test.edges.height);
+namespace {
+
+/// FLIP of the pixels of `wanted`; `test` is the part `at` of its picture.
+void flipInto(Plane& out, const FlipPicture& reference, const FlipPicture& test,
+              const Rectangle& at, const Rectangle& wanted) {
     static const float most = largestDifference();
     const float knee = kPc * most;
-    Plane out{test.edges.width, test.edges.height, std::vector<float>(test.edges.values.size())};
-    for (std::size_t i = 0; i < out.values.size(); ++i) {
-        const auto color = [i](const FlipPicture& of) {
-            return Color{of.lab[0].values[i], of.lab[1].values[i], of.lab[2].values[i]};
-        };
-        const float apart = hyab(color(reference), color(test));
-        const float feature =
-            std::max(std::abs(reference.edges.values[i] - test.edges.values[i]),
-                     std::abs(reference.points.values[i] - test.points.values[i]));
-        if (apart <= 0.0F) continue;  // 0 to any power that is left
-        const float power = std::pow(apart, kQc);
-        const float colorError =
-            power < knee ? kPt / knee * power : kPt + (power - knee) / (most - knee) * (1.0F - kPt);
-        const float featureError =
-            std::min(1.0F, std::pow(feature * static_cast<float>(std::sqrt(0.5)), kQf));
-        out.values[i] = std::pow(std::min(1.0F, colorError), 1.0F - featureError);
-    }
+    for (int y = wanted.y; y < wanted.y + wanted.height; ++y)
+        for (int x = wanted.x; x < wanted.x + wanted.width; ++x) {
+            const auto place = [&](int column, int row, int width) {
+                return static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
+                       static_cast<std::size_t>(column);
+            };
+            const std::size_t i = place(x, y, out.width),
+                              j = place(x - at.x, y - at.y, test.edges.width);
+            const auto color = [](const FlipPicture& of, std::size_t pixel) {
+                return Color{of.lab[0].values[pixel], of.lab[1].values[pixel],
+                             of.lab[2].values[pixel]};
+            };
+            const float apart = hyab(color(reference, i), color(test, j));
+            if (apart <= 0.0F) continue;  // 0 to any power that is left
+            const float feature =
+                std::max(std::abs(reference.edges.values[i] - test.edges.values[j]),
+                         std::abs(reference.points.values[i] - test.points.values[j]));
+            const float power = std::pow(apart, kQc);
+            const float colorError = power < knee
+                                         ? kPt / knee * power
+                                         : kPt + (power - knee) / (most - knee) * (1.0F - kPt);
+            // The paper's exponent of features is a half.
+            const float featureError =
+                std::min(1.0F, std::sqrt(feature * static_cast<float>(std::sqrt(0.5))));
+            out.values[i] = std::pow(std::min(1.0F, colorError), 1.0F - featureError);
+        }
+}
+
+Plane emptyLike(const Plane& plane) {
+    return {plane.width, plane.height, std::vector<float>(plane.values.size())};
+}
+
+/// The rectangle and `px` more at each side, within width x height.
+Rectangle grown(const Rectangle& from, int px, int width, int height) {
+    const int left = std::max(0, from.x - px), top = std::max(0, from.y - px);
+    return {left, top, std::min(width, from.x + from.width + px) - left,
+            std::min(height, from.y + from.height + px) - top};
+}
+
+}  // namespace
+
+Plane flip(const FlipPicture& reference, const FlipPicture& test) {
+    const Plane &like = reference.edges, &other = test.edges;
+    requireSameSize(like.width, like.height, other.width, other.height);
+    Plane out = emptyLike(like);
+    const Rectangle all{0, 0, like.width, like.height};
+    flipInto(out, reference, test, all, all);
     return out;
 }
 
 Plane flip(const FloatImage& reference, const FloatImage& test) {
     return flip(FlipPicture(reference), FlipPicture(test));
+}
+
+Plane flip(const FlipPicture& reference, const render::Image& test, const Rectangle& changed) {
+    const Plane& like = reference.edges;
+    requireSameSize(like.width, like.height, test.width, test.height);
+    Plane out = emptyLike(like);
+    if (changed.width <= 0 || changed.height <= 0) return out;
+    const int reach = reachOf(kPixelsPerDegree);
+    // A pixel is met by what lies within the reach; so much more has to be there for its filters.
+    const Rectangle read = grown(changed, 2 * reach, like.width, like.height);
+    const FlipPicture part{FloatImage(crop(test, read))};
+    flipInto(out, reference, part, read, grown(changed, reach, like.width, like.height));
+    return out;
 }
 
 }  // namespace farol::grade

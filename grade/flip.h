@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "grade/mask.h"
 #include "grade/plane.h"
 
 /// FLIP: the difference that a person sees who switches between two pictures (Andersson,
@@ -26,5 +27,9 @@ struct FlipPicture {
 /// FLIP of each pixel: 0 (equal) to 1. Throws Error image.size unless both have one size.
 Plane flip(const FlipPicture& reference, const FlipPicture& test);
 Plane flip(const FloatImage& reference, const FloatImage& test);
+
+/// The same, of a picture that equals the reference's but for `changed` (grade/measures.h): only
+/// what lies around that is computed. At kPixelsPerDegree.
+Plane flip(const FlipPicture& reference, const render::Image& test, const Rectangle& changed);
 
 }  // namespace farol::grade

@@ -143,9 +143,9 @@ struct Grader::State {
                                      frame.color, rubric, false, grade);
             const Frame& theirs = reference.frames[i];
             if (theirs.flip && frame.color != theirs.color) {
-                const FlipPicture mine{FloatImage(frame.color)};
-                const Summary summary =
-                    summarize(flip(*theirs.flip, mine), contentOf(theirs.color, frame.color));
+                const Plane seen =
+                    flip(*theirs.flip, frame.color, differing(theirs.color, frame.color));
+                const Summary summary = summarize(seen, contentOf(theirs.color, frame.color));
                 view.flipMean = summary.mean;
                 view.flipP95 = summary.p95;
             }

@@ -4,47 +4,94 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <iterator>
 #include <map>
 
 namespace farol::grade {
 namespace {
 
-/// A picture's channel planes on black, and the extremes of the 3x3 pixels around each.
-struct Extremes {
-    explicit Extremes(const render::Image& image) : width(image.width), height(image.height) {
-        const std::size_t row = 3 * static_cast<std::size_t>(width);
-        levels.resize(row * static_cast<std::size_t>(height));
-        for (std::size_t i = 0; i < levels.size() / 3; ++i) {
-            const std::uint8_t* from = &image.pixels[4 * i];
-            for (std::size_t c = 0; c < 3; ++c)
-                levels[3 * i + c] =
-                    from[3] == 255 ? from[c]
-                                   : static_cast<std::uint8_t>((from[c] * from[3] + 127) / 255);
+/// A picture's bytes as shown on black: the picture's own, where nothing of it is transparent.
+class OnBlack {
+  public:
+    explicit OnBlack(const render::Image& image)
+        : stride_(4 * static_cast<std::size_t>(image.width)), bytes_(image.pixels.data()) {
+        unsigned all = 255;
+        for (std::size_t i = 3; i < image.pixels.size(); i += 4) all &= image.pixels[i];
+        if (all == 255) return;
+        made_ = image.pixels;
+        for (std::size_t i = 0; i < made_.size(); i += 4) {
+            const int alpha = made_[i + 3];
+            for (std::size_t c = i; c < i + 3; ++c)
+                made_[c] = static_cast<std::uint8_t>((made_[c] * alpha + 127) / 255);
+            made_[i + 3] = 255;
         }
-        std::vector<std::uint8_t> lowRow(levels.size()), highRow(levels.size());
-        for (std::size_t y = 0; y < static_cast<std::size_t>(height); ++y)
-            for (std::size_t i = 0; i < row; ++i) {
-                const std::size_t at = y * row + i;
-                const std::uint8_t left = i >= 3 ? levels[at - 3] : levels[at];
-                const std::uint8_t right = i + 3 < row ? levels[at + 3] : levels[at];
-                lowRow[at] = std::min(std::min(left, right), levels[at]);
-                highRow[at] = std::max(std::max(left, right), levels[at]);
-            }
-        low.resize(levels.size());
-        high.resize(levels.size());
-        for (std::size_t at = 0; at < levels.size(); ++at) {
-            const std::size_t above = at >= row ? at - row : at;
-            const std::size_t below = at + row < levels.size() ? at + row : at;
-            low[at] = std::min(std::min(lowRow[above], lowRow[below]), lowRow[at]);
-            high[at] = std::max(std::max(highRow[above], highRow[below]), highRow[at]);
-        }
+        bytes_ = made_.data();
     }
-    int beyond(std::size_t at, std::uint8_t level) const {
-        return level < low[at] ? low[at] - level : level > high[at] ? level - high[at] : 0;
-    }
-    int width, height;
-    std::vector<std::uint8_t> levels, low, high;
+    const std::uint8_t* row(std::size_t y) const { return bytes_ + y * stride_; }
+
+  private:
+    std::size_t stride_;
+    const std::uint8_t* bytes_;
+    std::vector<std::uint8_t> made_;
 };
+
+/// The extremes of the 3x3 pixels around each of a row, by channel. The loops are plain ones over
+/// bytes, which compilers make vectors of.
+class Extremes {
+  public:
+    Extremes(const render::Image& image, const OnBlack& bytes)
+        : bytes_(bytes),
+          width_(4 * static_cast<std::size_t>(image.width)),
+          height_(static_cast<std::size_t>(image.height)),
+          padded_(width_ + 8),
+          low_(width_),
+          high_(width_) {}
+
+    void moveTo(std::size_t y) {
+        const std::uint8_t* above = bytes_.row(y > 0 ? y - 1 : y);
+        const std::uint8_t* here = bytes_.row(y);
+        const std::uint8_t* below = bytes_.row(y + 1 < height_ ? y + 1 : y);
+        // Down first, then across with the border's pixels repeated.
+        across(low_.data(), above, here, below,
+               [](std::uint8_t a, std::uint8_t b) { return b < a ? b : a; });
+        across(high_.data(), above, here, below,
+               [](std::uint8_t a, std::uint8_t b) { return b > a ? b : a; });
+    }
+    const std::uint8_t* low() const { return low_.data(); }
+    const std::uint8_t* high() const { return high_.data(); }
+
+  private:
+    template <typename Choose>
+    void across(std::uint8_t* out, const std::uint8_t* above, const std::uint8_t* here,
+                const std::uint8_t* below, Choose choose) {
+        std::uint8_t* down = padded_.data() + 4;
+        for (std::size_t i = 0; i < width_; ++i)
+            down[i] = choose(choose(above[i], below[i]), here[i]);
+        for (std::size_t c = 0; c < 4; ++c) {
+            padded_[c] = down[c];
+            down[width_ + c] = down[width_ - 4 + c];
+        }
+        for (std::size_t i = 0; i < width_; ++i)
+            out[i] = choose(choose(down[i], padded_[i]), padded_[i + 8]);
+    }
+
+    const OnBlack& bytes_;
+    std::size_t width_, height_;
+    std::vector<std::uint8_t> padded_, low_, high_;
+};
+
+/// By byte, how far `levels` is outside low..high; the larger of that and what `worst` holds.
+void raise(std::uint8_t* worst, const std::uint8_t* levels, const Extremes& around,
+           std::size_t count) {
+    const std::uint8_t *low = around.low(), *high = around.high();
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::uint8_t level = levels[i];
+        const auto under = static_cast<std::uint8_t>((low[i] > level ? low[i] : level) - level);
+        const auto over = static_cast<std::uint8_t>((level > high[i] ? level : high[i]) - high[i]);
+        const std::uint8_t more = under > over ? under : over;
+        worst[i] = more > worst[i] ? more : worst[i];
+    }
+}
 
 std::array<std::uint8_t, 3> borderColor(const render::Image& image) {
     std::map<std::array<std::uint8_t, 3>, int> counts;
@@ -71,32 +118,73 @@ std::array<std::uint8_t, 3> borderColor(const render::Image& image) {
 
 Plane beyondAPixel(const render::Image& first, const render::Image& second, int full) {
     requireSameSize(first.width, first.height, second.width, second.height);
-    if (first == second)
-        return {first.width, first.height, std::vector<float>(first.pixels.size() / 4)};
-    const Extremes a(first), b(second);
     Plane out{first.width, first.height, std::vector<float>(first.pixels.size() / 4)};
-    for (std::size_t i = 0; i < out.values.size(); ++i) {
-        int worst = 0;
-        for (std::size_t c = 3 * i; c < 3 * i + 3; ++c)
-            worst = std::max(worst, std::max(a.beyond(c, b.levels[c]), b.beyond(c, a.levels[c])));
-        out.values[i] = std::min(1.0F, static_cast<float>(worst) / static_cast<float>(full));
+    if (first == second) return out;
+    std::array<float, 256> shares{};
+    for (std::size_t i = 0; i < shares.size(); ++i)
+        shares[i] = std::min(1.0F, static_cast<float>(i) / static_cast<float>(full));
+    const OnBlack a(first), b(second);
+    Extremes aroundA(first, a), aroundB(second, b);
+    const std::size_t bytes = 4 * static_cast<std::size_t>(first.width);
+    const auto height = static_cast<std::size_t>(first.height);
+    const auto equal = [&](std::size_t y) {
+        return std::equal(a.row(y), a.row(y) + bytes, b.row(y));
+    };
+    std::vector<std::uint8_t> worst(bytes);
+    for (std::size_t y = 0; y < height; ++y) {
+        // Within what the other shows are all levels of a row that is the same in both.
+        if (equal(y)) continue;
+        aroundA.moveTo(y);
+        aroundB.moveTo(y);
+        std::fill(worst.begin(), worst.end(), std::uint8_t{0});
+        raise(worst.data(), b.row(y), aroundA, bytes);
+        raise(worst.data(), a.row(y), aroundB, bytes);
+        float* row = &out.values[y * static_cast<std::size_t>(first.width)];
+        for (std::size_t i = 0; i < bytes; i += 4)
+            row[i / 4] = shares[std::max({worst[i], worst[i + 1], worst[i + 2]})];
     }
     return out;
 }
 
+Rectangle differing(const render::Image& first, const render::Image& second) {
+    const std::size_t bytes = 4 * static_cast<std::size_t>(first.width);
+    int left = first.width, right = 0, top = first.height, bottom = 0;
+    for (int y = 0; y < first.height; ++y) {
+        const auto a = first.pixels.begin() + static_cast<std::ptrdiff_t>(bytes) * y;
+        const auto b = second.pixels.begin() + static_cast<std::ptrdiff_t>(bytes) * y;
+        const auto end = a + static_cast<std::ptrdiff_t>(bytes);
+        const auto begin = std::mismatch(a, end, b).first;
+        if (begin == end) continue;
+        top = std::min(top, y);
+        bottom = y + 1;
+        left = std::min(left, static_cast<int>((begin - a) / 4));
+        const auto last =
+            std::mismatch(std::make_reverse_iterator(end), std::make_reverse_iterator(a),
+                          std::make_reverse_iterator(b + (end - a)))
+                .first;
+        right = std::max(right, static_cast<int>((last.base() - a - 1) / 4 + 1));
+    }
+    if (right == 0) return {};
+    return {left, top, right - left, bottom - top};
+}
+
 Mask contentOf(const render::Image& reference, const render::Image& submission) {
-    constexpr int kSame = 6;  // levels
+    constexpr std::uint8_t kSame = 6;  // levels
     const std::array<std::uint8_t, 3> back = borderColor(reference);
+    const std::uint8_t red = back[0], green = back[1], blue = back[2];
+    const auto apart = [](std::uint8_t a, std::uint8_t b) {
+        return static_cast<std::uint8_t>(a > b ? a - b : b - a);
+    };
     Mask mask;
     mask.counts.resize(reference.pixels.size() / 4);
     std::size_t counted = 0;
-    for (std::size_t i = 0; i < mask.counts.size(); ++i) {
-        bool shows = false;
-        for (std::size_t c = 0; c < 3; ++c)
-            shows = shows || std::abs(reference.pixels[4 * i + c] - back[c]) > kSame ||
-                    std::abs(submission.pixels[4 * i + c] - back[c]) > kSame;
-        mask.counts[i] = shows ? 1 : 0;
-        counted += shows ? 1 : 0;
+    const std::uint8_t *a = reference.pixels.data(), *b = submission.pixels.data();
+    for (std::size_t i = 0; i < mask.counts.size(); ++i, a += 4, b += 4) {
+        const std::uint8_t most =
+            std::max({apart(a[0], red), apart(a[1], green), apart(a[2], blue), apart(b[0], red),
+                      apart(b[1], green), apart(b[2], blue)});
+        mask.counts[i] = most > kSame ? 1 : 0;
+        counted += mask.counts[i];
     }
     if (counted * 1000 < mask.counts.size()) mask.counts.clear();
     return mask;

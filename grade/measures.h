@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "grade/plane.h"
+#include "grade/mask.h"
 #include "render/image.h"
 
 /// What of two pictures of one size a grade goes by. All shares are 0 (alike) to 1.
@@ -15,6 +15,10 @@ namespace farol::grade {
 /// directions, as a share of `full` levels (capped at 1). An edge that moved by a pixel, or that
 /// was smoothed, costs nothing. Colours as shown on black.
 Plane beyondAPixel(const render::Image& first, const render::Image& second, int full);
+
+/// The least rectangle that holds every pixel which is not the same in both; empty where none is.
+/// Precondition: one size.
+Rectangle differing(const render::Image& first, const render::Image& second);
 
 /// Levels at which a difference of colour counts whole: plain to see beside one another.
 inline constexpr int kFullLevels = 64;

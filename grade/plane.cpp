@@ -1,7 +1,6 @@
 #include "grade/plane.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstring>
 #include <string>
@@ -11,34 +10,54 @@
 namespace farol::grade {
 namespace {
 
-/// Four floats that are added and multiplied at once: g++ 12 makes no such of plain loops at -O2.
-using Four = float __attribute__((vector_size(16)));
+/// Floats that are added and multiplied at once: g++ 12 makes no such of plain loops at -O2.
+template <std::size_t kBytes>
+struct Vector {
+    using Type [[gnu::vector_size(kBytes)]] = float;
+};
 /// Columns that are summed at once: as many as stay in registers.
-constexpr std::size_t kLanes = 16;
+constexpr std::size_t kLanes = 32;
 
-Four four(const float* from) {
-    Four out;
-    std::memcpy(&out, from, sizeof out);
-    return out;
-}
-
-/// out[x] = sum over t of weights[t] * rows[t][x]. `count` is a multiple of kLanes.
-void weigh(const std::vector<const float*>& rows, const std::vector<float>& weights,
-           std::size_t count, float* out) {
-    const std::size_t taps = weights.size();
-    for (std::size_t x = 0; x < count; x += kLanes) {
-        Four a{}, b{}, c{}, d{};
+/// out[x] = sum over t of weights[t] * rows[t][x], in this order whatever the vectors' size: the
+/// sums are the same on every machine. `count` is a multiple of kLanes.
+template <std::size_t kBytes>
+[[gnu::always_inline]] inline void weighBy(const float* const* rows, const float* weights,
+                                           std::size_t taps, std::size_t count, float* out) {
+    using Floats = typename Vector<kBytes>::Type;
+    constexpr std::size_t kEach = kBytes / sizeof(float), kSums = 4, kAtOnce = kSums * kEach;
+    for (std::size_t x = 0; x < count; x += kAtOnce) {
+        Floats sums[kSums] = {};
         for (std::size_t t = 0; t < taps; ++t) {
             const float* from = rows[t] + x;
-            const float weight = weights[t];
-            a += weight * four(from);
-            b += weight * four(from + 4);
-            c += weight * four(from + 8);
-            d += weight * four(from + 12);
+            for (std::size_t i = 0; i < kSums; ++i) {
+                Floats some;
+                std::memcpy(&some, from + i * kEach, sizeof some);
+                sums[i] += weights[t] * some;
+            }
         }
-        const std::array<Four, kLanes / 4> sums{a, b, c, d};
-        std::memcpy(out + x, sums.data(), sizeof sums);
+        std::memcpy(out + x, sums, sizeof sums);
     }
+}
+
+void weighPlain(const float* const* rows, const float* weights, std::size_t taps, std::size_t count,
+                float* out) {
+    weighBy<16>(rows, weights, taps, count, out);
+}
+
+#ifdef __x86_64__
+[[gnu::target("avx2")]] void weighWide(const float* const* rows, const float* weights,
+                                       std::size_t taps, std::size_t count, float* out) {
+    weighBy<32>(rows, weights, taps, count, out);
+}
+#endif
+
+void weigh(const std::vector<const float*>& rows, const std::vector<float>& weights,
+           std::size_t count, float* out) {
+#ifdef __x86_64__
+    static const bool kWide = __builtin_cpu_supports("avx2");
+    if (kWide) return weighWide(rows.data(), weights.data(), weights.size(), count, out);
+#endif
+    weighPlain(rows.data(), weights.data(), weights.size(), count, out);
 }
 
 std::size_t lanesOf(int width) {
@@ -67,50 +86,64 @@ Summary summarize(const Plane& plane, const Mask& mask) {
         sum += static_cast<double>(plane.values[i]);
     }
     if (counted.empty()) return {};
+    auto begin = counted.begin();  // of what is not below the rank before
     const auto rank = [&](double share) {
         const double wanted = std::ceil(share * static_cast<double>(counted.size()));
         const auto place = counted.begin() + static_cast<std::ptrdiff_t>(std::max(1.0, wanted)) - 1;
-        std::nth_element(counted.begin(), place, counted.end());
+        std::nth_element(begin, place, counted.end());
+        begin = place;
         return static_cast<double>(*place);
     };
-    return {.mean = sum / static_cast<double>(counted.size()),
-            .median = rank(0.5),
-            .p95 = rank(0.95),
-            .p99 = rank(0.99),
-            .max = rank(1.0)};
+    Summary out{.mean = sum / static_cast<double>(counted.size())};
+    out.median = rank(0.5);
+    out.p95 = rank(0.95);
+    out.p99 = rank(0.99);
+    out.max = rank(1.0);
+    return out;
 }
 
-Plane filter(const Plane& plane, const std::vector<float>& across, const std::vector<float>& down) {
+Rows filterAcross(const Plane& plane, const std::vector<float>& weights) {
     const auto width = static_cast<std::size_t>(plane.width);
-    const std::size_t stride = lanesOf(plane.width);
-    const std::size_t reach = across.size() / 2;
-    std::vector<float> padded(stride + 2 * reach);
-    std::vector<const float*> taps(across.size());
+    const std::size_t reach = weights.size() / 2;
+    Rows out{plane.width, plane.height, lanesOf(plane.width), {}};
+    out.values.resize(out.stride * static_cast<std::size_t>(plane.height));
+    std::vector<float> padded(out.stride + 2 * reach);
+    std::vector<const float*> taps(weights.size());
     for (std::size_t t = 0; t < taps.size(); ++t) taps[t] = padded.data() + t;
-    std::vector<float> rows(stride * static_cast<std::size_t>(plane.height));
     for (std::size_t y = 0; y < static_cast<std::size_t>(plane.height); ++y) {
         const float* from = &plane.values[y * width];
         std::fill_n(padded.begin(), reach, from[0]);
         std::copy_n(from, width, padded.begin() + static_cast<std::ptrdiff_t>(reach));
         std::fill(padded.begin() + static_cast<std::ptrdiff_t>(reach + width), padded.end(),
                   from[width - 1]);
-        weigh(taps, across, stride, &rows[y * stride]);
+        weigh(taps, weights, out.stride, &out.values[y * out.stride]);
     }
-    Plane out{plane.width, plane.height, std::vector<float>(plane.values.size())};
-    const int below = static_cast<int>(down.size() / 2);
-    taps.resize(down.size());
-    std::vector<float> row(stride);
-    for (int y = 0; y < plane.height; ++y) {
-        for (int t = 0; t < static_cast<int>(down.size()); ++t)
+    return out;
+}
+
+Plane filterDown(const Rows& rows, const std::vector<float>& weights) {
+    const auto width = static_cast<std::size_t>(rows.width);
+    Plane out{rows.width, rows.height,
+              std::vector<float>(width * static_cast<std::size_t>(rows.height))};
+    const int reach = static_cast<int>(weights.size() / 2);
+    std::vector<const float*> taps(weights.size());
+    std::vector<float> row(rows.stride);
+    for (int y = 0; y < rows.height; ++y) {
+        for (int t = 0; t < static_cast<int>(weights.size()); ++t)
             taps[static_cast<std::size_t>(t)] =
-                &rows[static_cast<std::size_t>(std::clamp(y + t - below, 0, plane.height - 1)) *
-                      stride];
-        weigh(taps, down, stride, row.data());
+                &rows.values[static_cast<std::size_t>(
+                                 std::clamp(y + t - reach, 0, rows.height - 1)) *
+                             rows.stride];
+        weigh(taps, weights, rows.stride, row.data());
         std::copy_n(
             row.begin(), width,
             out.values.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(y) * width));
     }
     return out;
+}
+
+Plane filter(const Plane& plane, const std::vector<float>& across, const std::vector<float>& down) {
+    return filterDown(filterAcross(plane, across), down);
 }
 
 std::vector<float> gaussian(double sigma, int radius) {

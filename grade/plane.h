@@ -46,9 +46,18 @@ struct Summary {
 };
 Summary summarize(const Plane& plane, const Mask& mask = {});
 
+/// A plane that is filtered across, and still to be filtered down: one serves several filters.
+struct Rows {
+    int width = 0, height = 0;
+    std::size_t stride = 0;  ///< floats from row to row; those beyond the width mean nothing
+    std::vector<float> values;
+};
+
 /// The plane filtered by rows with `across` and by columns with `down`: weights of odd number,
 /// applied as a correlation; beyond the border the nearest pixel repeats.
 Plane filter(const Plane& plane, const std::vector<float>& across, const std::vector<float>& down);
+Rows filterAcross(const Plane& plane, const std::vector<float>& weights);
+Plane filterDown(const Rows& rows, const std::vector<float>& weights);
 
 /// exp(-x^2 / (2 sigma^2)) at -radius..radius px, scaled to the sum 1.
 std::vector<float> gaussian(double sigma, int radius);

@@ -14,6 +14,9 @@ using nlohmann::ordered_json;
 
 double rounded(double points) { return std::round(points * 100.0) / 100.0; }
 
+/// What is measured, to digits that no machine's arithmetic changes.
+double sixDigits(double measured) { return std::round(measured * 1e6) / 1e6; }
+
 std::string percent(double share) { return shortNumber(std::round(share * 1000.0) / 10.0) + " %"; }
 
 double measuredIn(const ViewGrade& view, Measure measure) {
@@ -155,7 +158,7 @@ const char* wordOf(Severity severity) {
 }
 
 ordered_json placeOf(const Location& where) {
-    ordered_json out;
+    ordered_json out = ordered_json::object();  // a finding need not have a place
     if (!where.file.empty()) out["file"] = where.file;
     if (where.line > 0) out["line"] = where.line;
     if (where.column > 0) out["column"] = where.column;
@@ -207,7 +210,7 @@ std::string toJson(const Grade& grade) {
         ordered_json entry{{"measure", nameOf(one.measure)},
                            {"points", rounded(one.points)},
                            {"most", rounded(one.most)}};
-        if (!isStructural(one.measure)) entry["measured"] = one.measured;
+        if (!isStructural(one.measure)) entry["measured"] = sixDigits(one.measured);
         entry["reason"] = one.reason;
         out["criteria"].push_back(std::move(entry));
     }
@@ -229,16 +232,17 @@ std::string toJson(const Grade& grade) {
     }
     out["views"] = ordered_json::array();
     for (const ViewGrade& one : grade.views)
-        out["views"].push_back({{"name", one.name},
-                                {"time", one.timeS},
-                                {"width", one.width},
-                                {"height", one.height},
-                                {"difference", one.difference},
-                                {"flip", {{"mean", one.flipMean}, {"p95", one.flipP95}}},
-                                {"ssim", one.ssim},
-                                {"coverage", one.coverage},
-                                {"depth", one.depth},
-                                {"normals", one.normals}});
+        out["views"].push_back(
+            {{"name", one.name},
+             {"time", one.timeS},
+             {"width", one.width},
+             {"height", one.height},
+             {"difference", sixDigits(one.difference)},
+             {"flip", {{"mean", sixDigits(one.flipMean)}, {"p95", sixDigits(one.flipP95)}}},
+             {"ssim", sixDigits(one.ssim)},
+             {"coverage", sixDigits(one.coverage)},
+             {"depth", sixDigits(one.depth)},
+             {"normals", sixDigits(one.normals)}});
     return out.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
 }
 

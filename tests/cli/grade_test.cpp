@@ -1,6 +1,14 @@
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <catch2/catch.hpp>
+#include <chrono>
+#include <csignal>
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
+#include <thread>
+#include <vector>
 
 #include "run.h"
 
@@ -53,7 +61,167 @@ json gradeOf(const json& report, const std::string& id) {
     return {};
 }
 
+constexpr const char* kReports[] = {"report.html", "grades.csv", "junit.xml", "report.json"};
+
+fs::path folder() { return fs::path(FAROL_TEST_OUTPUT) / "cli" / "grade"; }
+
+std::size_t resultsIn(const std::string& output) {
+    std::error_code none;
+    std::size_t count = 0;
+    for (const auto& entry : fs::directory_iterator(folder() / output / "results", none))
+        count += entry.path().extension() == ".grade" ? 1 : 0;
+    return count;
+}
+
+/// The program, running beside the test.
+class Running {
+  public:
+    explicit Running(std::vector<std::string> arguments) : pid_(::fork()) {
+        if (pid_ != 0) return;
+        arguments.insert(arguments.begin(), FAROL_BINARY);
+        std::vector<char*> raw;
+        for (std::string& one : arguments) raw.push_back(one.data());
+        raw.push_back(nullptr);
+        if (::chdir(folder().c_str()) == 0 && ::freopen("/dev/null", "w", stdout) &&
+            ::freopen("/dev/null", "w", stderr))
+            ::execv(raw[0], raw.data());
+        ::_exit(127);
+    }
+    ~Running() {
+        if (pid_ > 0) end();
+    }
+    Running(const Running&) = delete;
+    Running& operator=(const Running&) = delete;
+
+    pid_t pid() const { return pid_; }
+    /// Waits for it; its status as waitpid() tells it.
+    int wait() {
+        int status = 0;
+        ::waitpid(pid_, &status, 0);
+        pid_ = 0;
+        return status;
+    }
+    /// Ends it at once, as a machine that goes down does.
+    int end() {
+        ::kill(pid_, SIGKILL);
+        return wait();
+    }
+    /// False where the program ended before.
+    template <typename Condition>
+    bool waitUntil(Condition condition) const {
+        while (!condition()) {
+            siginfo_t ended{};
+            ::waitid(P_PID, static_cast<id_t>(pid_), &ended, WEXITED | WNOHANG | WNOWAIT);
+            if (ended.si_pid != 0) return false;
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+        return true;
+    }
+    std::vector<pid_t> children() const {
+        std::vector<pid_t> found;
+        for (const auto& entry : fs::directory_iterator("/proc")) {
+            if (std::atoi(entry.path().filename().c_str()) <= 0) continue;  // no process
+            std::ifstream file(entry.path() / "stat");
+            const std::string text{std::istreambuf_iterator<char>(file), {}};
+            const std::size_t name = text.rfind(')');  // then: state, parent
+            if (name != std::string::npos && text.size() > name + 4 &&
+                std::atoi(text.c_str() + name + 4) == pid_)
+                found.push_back(std::atoi(entry.path().filename().c_str()));
+        }
+        return found;
+    }
+
+  private:
+    pid_t pid_;
+};
+
+/// Many that are no other's double: `count` of them, in `class`.
+void makeMany(int count) {
+    freshFolder("grade");
+    writeFile("reference.xml", kReference);
+    for (int i = 0; i < count; ++i)
+        writeFile("class/student-" + std::to_string(100 + i) + ".xml",
+                  replaced(kReference, "angle=\"40\"", "angle=\"" + std::to_string(40 + i) + "\""));
+}
+
 }  // namespace
+
+TEST_CASE("a run that was ended in its midst goes on to the same reports") {
+    makeMany(24);
+    Running first({"grade", "--reference", "reference.xml", "class", "-o", "out", "--jobs", "1"});
+    REQUIRE(first.waitUntil([] { return resultsIn("out") >= 3; }));
+    const int status = first.end();
+    REQUIRE(WIFSIGNALED(status));
+    const std::size_t before = resultsIn("out");
+    CHECK(before < 24);
+    CHECK_FALSE(exists("out/report.json"));
+    // What a machine without power leaves of a file.
+    for (const auto& entry : fs::directory_iterator(folder() / "out" / "results"))
+        if (entry.path().extension() == ".grade") {
+            fs::resize_file(entry.path(), fs::file_size(entry.path()) / 2);
+            break;
+        }
+    const Outcome second = run("grade --reference reference.xml class -o out --jobs 2 --json");
+    INFO(second.err);
+    REQUIRE(second.status == 0);
+    CHECK(json::parse(second.out).at("kept") == before - 1);
+    CHECK(json::parse(second.out).at("graded") == 24 - (before - 1));
+    REQUIRE(run("grade --reference reference.xml class -o whole --jobs 2").status == 0);
+    for (const char* file : kReports)
+        CHECK(readFile(std::string("out/") + file) == readFile(std::string("whole/") + file));
+}
+
+TEST_CASE("a submission that takes all memory, or no end, stops no other") {
+    makeMany(8);
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    WARN("without the hungry one: a sanitizer's build has no memory cap");
+    const std::string hungry;
+#else
+    // Just as many triangles as may be drawn.
+    const std::string hungry = "student-102-hungry.xml";
+    writeFile("class/" + hungry, replaced(kReference, "box_1_2", "sphere_1_1580_1580"));
+#endif
+    Running grading({"grade", "--reference", "reference.xml", "class", "-o", "out", "--jobs", "2",
+                     "--worker-memory", "448", "--deadline", "12"});
+    // A worker that stands still is late with whatever it is given.
+    REQUIRE(grading.waitUntil([] { return resultsIn("out") >= 1; }));
+    const std::vector<pid_t> workers = grading.children();
+    REQUIRE_FALSE(workers.empty());
+    REQUIRE(::kill(workers.front(), SIGSTOP) == 0);
+    const int status = grading.wait();
+    REQUIRE(WIFEXITED(status));
+    CHECK(WEXITSTATUS(status) == 0);
+    std::size_t graded = 0, late = 0;
+    const json report = reportOf("out");
+    for (const json& one : report.at("submissions")) {
+        const json& task = one.at("tasks").at(0);
+        INFO(task.dump().substr(0, 300));
+        if (one.at("id") == hungry) {
+            CHECK(task.at("failure").at("code") == "limit.memory");
+            CHECK(one.at("points") == 0.0);
+        } else if (task.contains("failure")) {
+            CHECK(task.at("failure").at("code") == "busy.deadline");
+            ++late;
+        } else {
+            ++graded;
+        }
+    }
+    CHECK(late <= 1);
+    CHECK(graded + late == 8);
+}
+
+TEST_CASE("a mistake without a place in the document is told like any other") {
+    freshFolder("grade");
+    writeFile("reference.xml", kReference);
+    const std::string light =
+        "<lights><light type=\"directional\" dirx=\"1\" diry=\"2\" dirz=\"1\"/></lights>";
+    writeFile("class/dark.xml", replaced(kReference, light, ""));
+    REQUIRE(run("grade --reference reference.xml class -o out").status == 0);
+    const json task = gradeOf(reportOf("out"), "dark.xml").at("tasks").at(0);
+    INFO(task.dump());
+    REQUIRE(task.contains("grade"));
+    CHECK(task.at("grade").at("findings").at(0).at("code") == "light.missing");
+}
 
 TEST_CASE("a class is graded, whatever is in it") {
     makeClass();
@@ -85,7 +253,7 @@ TEST_CASE("a class is graded, whatever is in it") {
     REQUIRE(again.status == 0);
     CHECK(json::parse(again.out).at("kept").get<int>() >= 5);
     REQUIRE(run("grade --reference reference.xml class -o other --jobs 1").status == 0);
-    for (const char* file : {"report.html", "grades.csv", "junit.xml", "report.json"})
+    for (const char* file : kReports)
         CHECK(readFile(std::string("out/") + file) == readFile(std::string("other/") + file));
 }
 

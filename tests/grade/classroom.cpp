@@ -73,6 +73,18 @@ std::string wiresXml() {
  <models><model file="sphere_1_10_6.3d"/></models></group></world>)";
 }
 
+/// Surfaces that end: which side is drawn shows. The sail is seen from behind.
+std::string sheetsXml() {
+    return std::string("<world>") + kCamera + R"(
+<lights><light type="directional" dirx="1" diry="2" dirz="1.5"/></lights>
+<group><models><model file="plane_6_8.3d"><color><diffuse R="150" G="170" B="120"/></color></model></models>
+ <group><transform><translate x="-0.5" y="1.5" z="0"/><rotate angle="-100" x="1" y="0" z="0"/></transform>
+  <models><model file="plane_2_4.3d" twoSided="true"><color><diffuse R="220" G="80" B="60"/></color></model></models></group>
+ <group><transform><translate x="2" y="0.6" z="1"/></transform>
+  <models><model file="sphere_0.6_16_12.3d"><color><diffuse R="60" G="90" B="200"/></color></model></models></group>
+</group></world>)";
+}
+
 }  // namespace
 
 std::vector<ReferenceScene> referenceScenes() {
@@ -96,6 +108,7 @@ std::vector<ReferenceScene> referenceScenes() {
                    {{"compass.png", readFile(root / "primitives" / "compass.png")},
                     {"planks.jpg", readFile(root / "torch" / "planks.jpg")}}});
     all.push_back({"made: wires", wiresXml(), {}});
+    all.push_back({"made: sheets", sheetsXml(), {}});
     return all;
 }
 
@@ -139,6 +152,11 @@ bool replaceMesh(Work& work, scene::Model& model, const std::string& file,
     model.command.clear();
     model.uv = scene::UvLayout::face;
     return true;
+}
+
+void turnTriangles(generator::Mesh& mesh) {
+    for (std::size_t t = 0; t + 2 < mesh.indices.size(); t += 3)
+        std::swap(mesh.indices[t + 1], mesh.indices[t + 2]);
 }
 
 }  // namespace farol::test

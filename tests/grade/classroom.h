@@ -61,4 +61,7 @@ std::vector<Placed> modelsOf(scene::Scene& scene);
 bool replaceMesh(Work& work, scene::Model& model, const std::string& file,
                  void (*change)(generator::Mesh&));
 
+/// Every triangle the other way round; normals stay.
+void turnTriangles(generator::Mesh& mesh);
+
 }  // namespace farol::test

@@ -183,6 +183,16 @@ Result pictureFormat(Work& work) {
     return any ? written(work) : Result();
 }
 
+/// The reader turns it, and says so.
+Result closedMeshTurned(Work& work) {
+    for (const Placed& one : modelsOf(work.scene)) {
+        const auto& words = one.model->source.words;
+        if (words.empty() || (words[0] != "sphere" && words[0] != "box")) continue;
+        if (replaceMesh(work, *one.model, "clockwise.obj", turnTriangles)) return written(work);
+    }
+    return {};
+}
+
 }  // namespace
 
 std::vector<Variant> harmless() {
@@ -200,6 +210,7 @@ std::vector<Variant> harmless() {
         {"groups split", {}, splitGroups},
         {"angles and whole turns", {}, wholeTurns},
         {"textures in another format", {}, pictureFormat},
+        {"triangles of a closed mesh clockwise", {}, closedMeshTurned},
     };
 }
 

@@ -240,10 +240,21 @@ Result normalsInward(Work& work) {
     });
 }
 
+/// Of surfaces that end: closed ones are turned when they are read, which is a harmless change.
 Result winding(Work& work) {
-    return meshChanged(work, "clockwise.obj", false, true, [](generator::Mesh& mesh) {
-        for (std::size_t t = 0; t + 2 < mesh.indices.size(); t += 3)
-            std::swap(mesh.indices[t + 1], mesh.indices[t + 2]);
+    return changeModel(work, [&](scene::Model& model) {
+        const auto& words = model.source.words;
+        const bool ends =
+            !words.empty() && (words[0] == "plane" || words[0] == "patch" || words[0] == "ring");
+        return ends && replaceMesh(work, model, "clockwise.obj", turnTriangles);
+    });
+}
+
+Result culling(Work& work) {
+    return changeModel(work, [](scene::Model& model) {
+        const bool had = model.twoSided;
+        model.twoSided = false;
+        return had;
     });
 }
 
@@ -397,6 +408,7 @@ std::vector<Variant> mutants() {
         {"flat for smooth", {"model.flat-normals"}, flat},
         {"normals inward", {"model.normals-inward"}, normalsInward},
         {"triangles clockwise", {"model.winding"}, winding},
+        {"culling of what has two sides", {"model.culling"}, culling},
         {"V flipped", {"texture.upside-down"}, vFlipped},
         {"U mirrored", {"texture.mirrored"}, uMirrored},
         {"picture upside down", {"texture.upside-down"}, pictureUpsideDown},

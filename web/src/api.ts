@@ -1,5 +1,6 @@
 // The service as the page uses it (api/openapi.yaml).
 import type { LookAt, Orbit } from './maths/camera.ts';
+import { askForToken, token } from './token.ts';
 
 export type Severity = 'info' | 'warning' | 'error';
 
@@ -80,10 +81,28 @@ async function problemOf(response: Response): Promise<Problem> {
   }
 }
 
+/** What changes something carries the token, where there is one. */
+function withToken(init: RequestInit | undefined): RequestInit | undefined {
+  const given = token();
+  if (given === null || !init || (init.method ?? 'GET') === 'GET') return init;
+  const headers = new Headers(init.headers);
+  headers.set('Authorization', `Bearer ${given}`);
+  return { ...init, headers };
+}
+
+/** The answer; throws a Problem unless it is a success. A token that is wanted is asked for. */
 export async function request(url: string, init?: RequestInit): Promise<Response> {
-  const response = await fetch(url, init);
-  if (!response.ok) throw await problemOf(response);
-  return response;
+  for (;;) {
+    const sent = token();
+    const response = await fetch(url, withToken(init));
+    if (response.ok) return response;
+    const problem = await problemOf(response);
+    if (response.status !== 401) throw problem;
+    // Another request may have been given the token while this one was under way.
+    if (token() !== sent) continue;
+    const why = sent === null ? 'Storing and deleting need the token it was started with.' : sentence(problem.findings[0] as Finding);
+    if (!(await askForToken(why))) throw problem;
+  }
 }
 
 /** Asks a busy server again when it says so, a few times. */
@@ -113,6 +132,9 @@ export const getScene = (id: string): Promise<SceneFacts> => patient(() => json(
 export const getModels = (id: string): Promise<ModelPlaces> => json(`${scenePath(id)}/models`);
 
 export const getSource = async (id: string): Promise<string> => (await request(`${scenePath(id)}/source`)).text();
+
+/** Removes an upload. */
+export const deleteScene = async (id: string): Promise<void> => void (await request(scenePath(id), { method: 'DELETE' }));
 
 /** Facts about a document that is sent, and the places of its models. */
 export const validate = (body: RequestInit, base: string | null): Promise<SceneFacts & Partial<ModelPlaces>> =>

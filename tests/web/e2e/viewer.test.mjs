@@ -189,6 +189,44 @@ test('walking: the arrows turn, W moves ahead', async () => {
   await view.close();
 });
 
+test('walking with an entity: it stays in front while the world goes by', async () => {
+  const view = await openScene('third-person-ship');
+  await view.page.locator('.stage').focus();
+  await view.page.keyboard.press('m');
+  await settled(view);
+  /** The model numbers about the middle of the picture, and how many pixels show each. */
+  const models = () => view.page.evaluate(async (address) => {
+    const url = new URL(address);
+    for (const name of ['session', 'seq']) url.searchParams.delete(name);
+    Object.entries({ layer: 'id', aa: '1', format: 'png' }).forEach(([name, value]) => url.searchParams.set(name, value));
+    const bitmap = await createImageBitmap(await (await fetch(url)).blob(), { colorSpaceConversion: 'none', premultiplyAlpha: 'none' });
+    const canvas = new OffscreenCanvas(bitmap.width, bitmap.height), context = canvas.getContext('2d');
+    context.drawImage(bitmap, 0, 0);
+    const { data } = context.getImageData(0, 0, bitmap.width, bitmap.height), counts = {};
+    for (let i = 0; i < data.length; i += 4) {
+      const number = data[i] * 65536 + data[i + 1] * 256 + data[i + 2];
+      counts[number] = (counts[number] ?? 0) + 1;
+    }
+    return counts;
+  }, view.full().at(-1).url);
+  const first = await models(), before = await canvasPixels(view.page);
+  // The entity is drawn after the scene, and so has the highest numbers.
+  const ship = Object.keys(first).map(Number).sort((a, b) => b - a).slice(0, 2);
+  for (const keys of [['ArrowLeft', 'ArrowLeft'], ['ArrowUp'], ['w', 'w', 'w'], ['d']]) {
+    for (const key of keys) await view.page.keyboard.press(key);
+    await settled(view);
+    const now = await models();
+    for (const number of ship) assert.equal(now[number], first[number], `model ${number} after ${keys}`);
+  }
+  assert.notEqual((await canvasPixels(view.page)).digest, before.digest);
+  const last = view.full().at(-1), look = vector(last.target).map((x, i) => x - vector(last.eye)[i]);
+  assert.ok(look[1] < -0.05, 'the up arrow turns down');
+  await view.page.keyboard.press('m');
+  await settled(view);
+  assert.equal(view.full().at(-1).eye, undefined, 'orbiting again');
+  await view.close();
+});
+
 test('light mode turns the camera’s light, and quality keys choose the samples', async () => {
   const view = await openScene('torch');
   await view.page.locator('.stage').focus();

@@ -2,26 +2,18 @@
 // the view asks the frame loop for pictures.
 import { batch, computed, signal } from '@preact/signals';
 import {
-  findingsOf, getScene, getSource, orbitOptions, Problem, validate, type Finding, type ModelPlaces, type Options,
+  findingsOf, getScene, getSource, Problem, validate, type Finding, type ModelPlaces, type Options,
   type SceneFacts,
 } from '../api.ts';
 import { FrameLoop, type Shown } from '../frames/loop.ts';
 import { FrameRate, type Latency } from '../frames/timing.ts';
-import { fitFov, orbitOf, walkOf, walkTarget, type LookAt, type Orbit, type Walk } from '../maths/camera.ts';
-import { clamp, formatVec } from '../maths/vec.ts';
+import { orbitOf, walkOf, walkTarget, type LookAt, type Orbit, type Walk } from '../maths/camera.ts';
 import { formatView, replaceAddress, scenePlace, type ViewLink } from '../router.ts';
 import type { Loose } from './bundle.ts';
 import { SceneClock } from './clock.ts';
 import { hashText, loadDraft, saveDraft } from './drafts.ts';
+import { cameraOptions, qualityOptions, sizeOptions, type Quality, type StageSize } from './picture_options.ts';
 import { bodyOf, decodeFrame, fetchPicture, newSession, type Frame, type Origin } from './frame.ts';
-
-export type Quality = 'fast' | 'standard' | 'reference';
-
-const qualityOptions: Record<Quality, Options> = {
-  fast: { aa: 1, error: 1, filter: 'linear' },
-  standard: {},
-  reference: { aa: 16, error: 0.05, filter: 'anisotropic' },
-};
 
 export interface Hud {
   width: number;
@@ -33,7 +25,9 @@ export interface Hud {
   stats: Frame['stats'];
 }
 
-export type Canvas = { draw(bitmap: ImageBitmap, seq: number): void; size(): { width: number; height: number; ratio: number } };
+const hudEveryMs = 200;
+
+export type Canvas = { draw(bitmap: ImageBitmap, seq: number): void; size(): StageSize };
 
 export class Viewer {
   readonly facts = signal<SceneFacts | null>(null);
@@ -65,6 +59,7 @@ export class Viewer {
   private draftTimer: ReturnType<typeof setTimeout> | undefined;
   private typeTimer: ReturnType<typeof setTimeout> | undefined;
   private latest: Frame | null = null;
+  private toldAt = 0; // when the overlay was last told
   private asked = ''; // the size of the last picture that was asked for
   private closed = false;
   private known: { text: string; facts: SceneFacts & Partial<ModelPlaces> } | null = null; // of the edited document
@@ -238,13 +233,7 @@ export class Viewer {
   pictureOptions(): Options {
     const out: Options = { ...this.sizeOptions(), ...qualityOptions[this.quality.value], ...this.options.value };
     if (this.clock.time.value > 0) out['time'] = Number(this.clock.time.value.toFixed(3));
-    const { walk, orbit } = this;
-    if (walk.value) Object.assign(out, { eye: formatVec(walk.value.eye), target: formatVec(walkTarget(walk.value), 9) });
-    else if (orbit.value) {
-      Object.assign(out, orbitOptions(orbit.value));
-      if (this.home && this.home.up[1] < 0.999) out['up'] = formatVec(this.home.up);
-    }
-    return out;
+    return { ...out, ...cameraOptions(this.walk.value, this.orbit.value, this.home) };
   }
 
   /** Of a round trip about the scene, which begins with this view. */
@@ -254,17 +243,7 @@ export class Viewer {
   }
 
   private sizeOptions(): Options {
-    const { width, height, ratio } = this.canvas?.size() ?? { width: 512, height: 512, ratio: 1 };
-    const factor = Math.min(ratio, 2, 2048 / Math.max(width, height, 1));
-    const out: Options = {
-      width: clamp(Math.round(width * factor), 16, 4096), height: clamp(Math.round(height * factor), 16, 4096),
-    };
-    const facts = this.facts.value;
-    if (this.home && facts?.width && facts.height) {
-      const fov = fitFov(this.home.fov, facts.width / facts.height, width / height);
-      if (fov > this.home.fov + 1e-6) out['fov'] = Number(fov.toFixed(4));
-    }
-    return out;
+    return sizeOptions(this.canvas?.size() ?? { width: 512, height: 512, ratio: 1 }, this.home, this.facts.value);
   }
 
   get fov(): number {
@@ -278,10 +257,14 @@ export class Viewer {
     else this.rate.clear();
     batch(() => {
       this.pictured.value = true;
-      this.hud.value = {
-        width: picture.bitmap.width, height: picture.bitmap.height, bytes: picture.blob.size, moving,
-        fps: this.rate.rate(now), latency, stats: picture.stats,
-      };
+      // Numbers that change with every frame cannot be read, and cost as much as the frame.
+      if (!moving || now - this.toldAt >= hudEveryMs) {
+        this.toldAt = now;
+        this.hud.value = {
+          width: picture.bitmap.width, height: picture.bitmap.height, bytes: picture.blob.size, moving,
+          fps: this.rate.rate(now), latency, stats: picture.stats,
+        };
+      }
       if (!moving) this.still.value = picture.blob;
       this.setFindings(picture.findings);
     });

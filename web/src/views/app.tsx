@@ -9,6 +9,7 @@ import { lazyView } from './lazy.tsx';
 import { Gallery } from './gallery.tsx';
 import { Mark } from './icons.tsx';
 import { Findings, Toast, Tool } from './ui.tsx';
+import { TokenDialog } from './token_dialog.tsx';
 import { ViewerPage } from './viewer_page.tsx';
 
 const dropping = signal(false);
@@ -92,6 +93,7 @@ export function App() {
       )}
       {where.page === 'grade' && <GradePage />}
       <UploadNote />
+      <TokenDialog />
       <Toast />
     </>
   );

@@ -59,6 +59,15 @@ function Drop({ kind, title, text, take, children }: {
 
 const points = (value: number): string => String(Number(value.toFixed(1)));
 
+/** What was measured: measures that the rubric leaves out are not. */
+function shares(grade: Grade, view: Grade['views'][number]): string {
+  const measured = (name: string): boolean => grade.criteria.some((one) => one.measure === name);
+  return [
+    `${(100 * view.difference).toFixed(1)} % differs`,
+    measured('flip') ? `FLIP ${view.flip.mean.toFixed(3)}` : '', measured('ssim') ? `SSIM ${view.ssim.toFixed(3)}` : '',
+  ].filter(Boolean).join(', ');
+}
+
 function Details({ grade }: { grade: Grade }) {
   return (
     <div class="details">
@@ -90,7 +99,7 @@ function Details({ grade }: { grade: Grade }) {
               {view.picture && <img src={view.picture} alt={`The submission, ${view.name}`} loading="lazy" />}
               {view.heat && <img src={view.heat} alt={`Where it differs, ${view.name}`} loading="lazy" />}
             </div>
-            <figcaption>{view.name}{view.time ? `, ${view.time} s` : ''}: FLIP {view.flip.mean.toFixed(3)}, SSIM {view.ssim.toFixed(3)}</figcaption>
+            <figcaption>{view.name}{view.time ? `, ${view.time} s` : ''}: {shares(grade, view)}</figcaption>
           </figure>
         ))}
       </div>

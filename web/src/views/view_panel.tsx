@@ -1,13 +1,24 @@
 // How the picture is drawn: every picture option that makes sense while looking.
-import { query } from '../api.ts';
+import { deleteScene, findingsOf, query, sentence } from '../api.ts';
 import type { Viewer } from '../scene/viewer.ts';
 import { cullingShown, showHud } from './hud.tsx';
 import { Icon } from './icons.tsx';
-import { Check, Choice, Section } from './ui.tsx';
+import { Check, Choice, say, Section } from './ui.tsx';
 
 const asSet = ['', 'as the scene says'] as const;
 const shadings = ['points', 'wireframe', 'solid', 'chess', 'flat', 'gouraud', 'phong'];
 const pairs = (words: readonly string[]): (readonly [string, string])[] => [asSet, ...words.map((word) => [word, word] as const)];
+
+async function remove(id: string): Promise<void> {
+  if (!confirm('Delete this upload from the server? Its links will lead nowhere.')) return;
+  try {
+    await deleteScene(id);
+    location.hash = '#/';
+    say('Deleted.');
+  } catch (fault) {
+    say(findingsOf(fault).map((one) => sentence(one)).join(' '));
+  }
+}
 
 export function ViewPanel({ viewer }: { viewer: Viewer }) {
   const options = viewer.options.value;
@@ -84,6 +95,11 @@ export function ViewPanel({ viewer }: { viewer: Viewer }) {
             <div><dt>Lights</dt><dd>{counts.lights}</dd></div>
             <div><dt>Textures</dt><dd>{counts.textures} ({(counts.textureBytes / 1048576).toFixed(1)} MiB)</dd></div>
           </dl>
+        </Section>
+      )}
+      {viewer.facts.value?.upload && viewer.id !== null && (
+        <Section title="Upload">
+          <button type="button" class="button" onClick={() => void remove(viewer.id as string)}>Delete from the server</button>
         </Section>
       )}
     </div>

@@ -1,0 +1,108 @@
+// The grade page, and the token that a server may want.
+import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
+import { after, before, test } from 'node:test';
+import { launch, openPage, settled, startServer } from './fixture.mjs';
+
+let server, guarded, browser;
+before(async () => {
+  [server, guarded, browser] = await Promise.all([startServer(), startServer({ args: ['--token', 'open sesame'] }), launch()]);
+});
+after(async () => {
+  await browser?.close();
+  await server?.stop();
+  await guarded?.stop();
+});
+
+const scene = (angle) => `<world><window width="160" height="120"/>
+<camera><position x="4" y="3" z="5"/><lookAt x="0" y="0" z="0"/><projection fov="50" near="1" far="50"/></camera>
+<lights><light type="directional" dirx="1" diry="2" dirz="1"/></lights>
+<group>
+ <transform><translate x="1" y="0" z="0"/>
+  <rotate angle="${angle}" x="0" y="0" z="1"/></transform>
+ <models><model file="box_1_2.3d"/></models>
+</group></world>`;
+const file = (name, text) => ({ name, mimeType: name.endsWith('.json') ? 'application/json' : 'text/xml', buffer: Buffer.from(text) });
+const choose = async (view, button, files) => {
+  const [chooser] = await Promise.all([view.page.waitForEvent('filechooser'), view.page.getByRole('button', { name: button }).click()]);
+  await chooser.setFiles(files);
+};
+
+test('the grade page sends each submission, and shows points, findings and pictures', async () => {
+  const view = await openPage(browser, `${server.url}/#/grade`, { acceptDownloads: true });
+  const sent = [];
+  view.page.on('response', (response) => {
+    if (new URL(response.url()).pathname === '/v1/grade') sent.push(response.status());
+  });
+  const go = view.page.getByRole('button', { name: 'Grade', exact: true });
+  assert.ok(await go.isDisabled());
+  await choose(view, 'Reference: choose files', [file('reference.xml', scene(40))]);
+  await choose(view, 'Submissions: choose files', [file('ana.xml', scene(40)), file('bento.xml', scene(-40)), file('carla.xml', '<world><group></world>')]);
+  await choose(view, 'Submissions: choose files', [file('rubric.json', '{"title": "Of twenty", "points": 20}')]);
+  await view.page.getByText('3 submissions').waitFor();
+  await go.click();
+  await view.page.getByText('3 graded.').waitFor({ timeout: 60000 });
+  assert.deepEqual(sent, [200, 200, 200]);
+  const row = (name) => view.page.locator('.rows > li', { hasText: name });
+  assert.match(await row('ana').locator('.score').innerText(), /^20\s*of 20$/);
+  assert.match(await row('carla').locator('.score').innerText(), /^0\s*of 20$/);
+  const lost = Number.parseFloat(await row('bento').locator('.score strong').innerText());
+  assert.ok(lost > 0 && lost < 20, `${lost} points`);
+  await row('bento').getByRole('button').first().click();
+  assert.match(await row('bento').locator('.grade-findings').innerText(), /line 6/);
+  // Both pictures were drawn: they have sizes of their own.
+  await view.page.waitForFunction(() => {
+    const pictures = [...document.querySelectorAll('.details img')];
+    return pictures.length >= 2 && pictures.every((one) => one.complete && one.naturalWidth === 160);
+  });
+  const [download] = await Promise.all([view.page.waitForEvent('download'), view.page.getByRole('button', { name: 'CSV' }).click()]);
+  const table = readFileSync(await download.path(), 'utf8').trim().split('\r\n');
+  assert.equal(table.length, 4);
+  assert.match(table.find((line) => line.startsWith('ana')), /,20,20,passed,/);
+  assert.match(table.find((line) => line.startsWith('bento')), /sign/);
+  await view.close();
+});
+
+test('a server that wants a token is given it once', async () => {
+  const view = await openPage(browser, `${guarded.url}/`);
+  const sent = [];
+  view.page.on('request', (request) => {
+    if (request.method() !== 'GET') sent.push(request.headers()['authorization'] ?? '');
+  });
+  const dialog = view.page.getByRole('dialog', { name: 'This server wants a token' });
+  const answer = async (text) => {
+    await dialog.getByLabel('Token').fill(text);
+    await dialog.getByRole('button', { name: 'Go on' }).click();
+  };
+  await view.page.waitForSelector('.card:not(.ghost)');
+  await choose(view, 'Open files', [file('box.xml', scene(10))]);
+  await dialog.waitFor();
+  await answer('a guess');
+  await dialog.getByText('The token is not the right one.').waitFor();
+  await answer('open sesame');
+  await view.page.waitForURL(/#\/scene\/(~|%7E)/);
+  await settled(view);
+  assert.deepEqual(sent, ['', 'Bearer a guess', 'Bearer open sesame']);
+  // After a reload it is still known: deleting asks for no token.
+  await view.page.reload();
+  await settled(view);
+  await view.page.getByRole('button', { name: 'Panel', exact: true }).click();
+  view.page.once('dialog', (question) => void question.accept());
+  await view.page.getByRole('button', { name: 'Delete from the server' }).click();
+  await view.page.waitForURL(/#\/$/);
+  await view.page.waitForSelector('.card:not(.ghost)');
+  assert.equal(sent.at(-1), 'Bearer open sesame');
+  assert.ok(!(await dialog.isVisible()));
+  await view.close();
+});
+
+test('who gives no token sees the scene, and is told that it was not stored', async () => {
+  const view = await openPage(browser, `${guarded.url}/`);
+  await view.page.waitForSelector('.card:not(.ghost)');
+  await choose(view, 'Open files', [file('box.xml', scene(10))]);
+  await view.page.getByRole('dialog', { name: 'This server wants a token' }).getByRole('button', { name: 'Cancel' }).click();
+  await view.page.getByText('Shown, but not stored').waitFor();
+  await settled(view);
+  assert.equal(view.full().at(-1).path, '/v1/render');
+  await view.close();
+});

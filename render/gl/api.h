@@ -17,7 +17,6 @@ namespace farol::render::gl {
     X(BindRenderbuffer, PFNGLBINDRENDERBUFFERPROC)                                   \
     X(BindTexture, PFNGLBINDTEXTUREPROC)                                             \
     X(BindVertexArray, PFNGLBINDVERTEXARRAYPROC)                                     \
-    X(BlitFramebuffer, PFNGLBLITFRAMEBUFFERPROC)                                     \
     X(BufferData, PFNGLBUFFERDATAPROC)                                               \
     X(CheckFramebufferStatus, PFNGLCHECKFRAMEBUFFERSTATUSPROC)                       \
     X(Clear, PFNGLCLEARPROC)                                                         \
@@ -46,6 +45,7 @@ namespace farol::render::gl {
     X(EnableVertexAttribArray, PFNGLENABLEVERTEXATTRIBARRAYPROC)                     \
     X(Finish, PFNGLFINISHPROC)                                                       \
     X(FramebufferRenderbuffer, PFNGLFRAMEBUFFERRENDERBUFFERPROC)                     \
+    X(FramebufferTexture2D, PFNGLFRAMEBUFFERTEXTURE2DPROC)                           \
     X(FrontFace, PFNGLFRONTFACEPROC)                                                 \
     X(GenBuffers, PFNGLGENBUFFERSPROC)                                               \
     X(GenFramebuffers, PFNGLGENFRAMEBUFFERSPROC)                                     \
@@ -71,6 +71,7 @@ namespace farol::render::gl {
     X(RenderbufferStorageMultisample, PFNGLRENDERBUFFERSTORAGEMULTISAMPLEPROC)       \
     X(ShaderSource, PFNGLSHADERSOURCEPROC)                                           \
     X(TexImage2D, PFNGLTEXIMAGE2DPROC)                                               \
+    X(TexImage2DMultisample, PFNGLTEXIMAGE2DMULTISAMPLEPROC)                         \
     X(TexParameterf, PFNGLTEXPARAMETERFPROC)                                         \
     X(TexParameteri, PFNGLTEXPARAMETERIPROC)                                         \
     X(Uniform1f, PFNGLUNIFORM1FPROC)                                                 \

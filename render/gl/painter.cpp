@@ -118,6 +118,7 @@ struct Painter::State {
     void drawLines(const std::vector<LineVertex>& lines, const glm::mat4& clip, int& drawCalls);
     void drawOne(const DrawItem& item, const GpuMesh& mesh, const LinkedProgram& program);
     void preparePlaces(const FramePlan& plan);
+    Target::Resolver resolver(int samples);
     ProgramKey keyOf(const FramePlan& plan, const DrawItem& item, bool instanced) const;
     void setMaterial(const FramePlan& plan, const DrawItem& item, const LinkedProgram& program);
 };
@@ -331,7 +332,7 @@ void Painter::State::drawBackdrop(const FramePlan& plan, int& drawCalls) {
     api.DepthFunc(GL_EQUAL);
     api.DepthMask(GL_FALSE);
     if (plan.skyboxTexture >= 0) {
-        const LinkedProgram& program = programs.get({"backdrop", "#define SKYBOX\n"});
+        const LinkedProgram& program = programs.get({"window", "#define SKYBOX\n"});
         api.UseProgram(program.program.name());
         api.UniformMatrix3fv(program.worldFromView, 1, GL_FALSE,
                              glm::value_ptr(plan.worldFromView));
@@ -341,7 +342,7 @@ void Painter::State::drawBackdrop(const FramePlan& plan, int& drawCalls) {
         api.BindTexture(GL_TEXTURE_CUBE_MAP,
                         textureNames[static_cast<std::size_t>(plan.skyboxTexture)]);
     } else {
-        api.UseProgram(programs.get({"backdrop", ""}).program.name());
+        api.UseProgram(programs.get({"window", ""}).program.name());
         api.BindTexture(GL_TEXTURE_2D,
                         textureNames[static_cast<std::size_t>(plan.backgroundTexture)]);
     }
@@ -349,6 +350,12 @@ void Painter::State::drawBackdrop(const FramePlan& plan, int& drawCalls) {
     ++drawCalls;
     api.DepthMask(GL_TRUE);
     api.DepthFunc(GL_GREATER);
+}
+
+Target::Resolver Painter::State::resolver(int samples) {
+    if (samples <= 1) return {};
+    const ProgramKey key{"window", "#define RESOLVE " + std::to_string(samples) + '\n'};
+    return {programs.get(key).program.name(), emptyArray.name()};
 }
 
 void Painter::State::drawPass(const FramePlan& plan, const glm::dvec2& offset, int& drawCalls) {
@@ -379,6 +386,7 @@ void Painter::draw(const FramePlan& plan, const OpenTexture& open, Image& image,
         s.target.reset();  // the old one first: two large ones need not fit
         s.target.emplace(s.api, plan.width, plan.height, sampled.samples, channels);
     }
+    const Target::Resolver resolve = s.resolver(sampled.samples);
     std::vector<std::uint16_t> part;
     std::vector<std::uint32_t> sum;
     // With passes of their own, each sample is shaded: what changes within a pixel is averaged.
@@ -388,9 +396,9 @@ void Painter::draw(const FramePlan& plan, const OpenTexture& open, Image& image,
         s.api.Finish();  // else the time of drawing would be counted as reading
         const auto drawn = std::chrono::steady_clock::now();
         if (sampled.passes == 1) {
-            s.target->read(image);
+            s.target->read(resolve, image);
         } else {
-            s.target->read(part);
+            s.target->read(resolve, part);
             sum.resize(part.size());
             for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += part[i];
         }

@@ -10,7 +10,7 @@ namespace farol::render::gl {
 /// What a program is made for: the text of its #defines, one "#define NAME [VALUE]" a line. Only
 /// what a draw needs is compiled into its shader.
 struct ProgramKey {
-    std::string stage;  ///< "model", "line" or "backdrop": the shader files' name
+    std::string stage;  ///< "model", "line" or "window": the shader files' name
     std::string defines;
     bool operator<(const ProgramKey& other) const {
         return stage != other.stage ? stage < other.stage : defines < other.defines;

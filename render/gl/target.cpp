@@ -35,19 +35,23 @@ Target::Target(const Api& api, int width, int height, int samples, Channels chan
       channels_(channels),
       drawn_(api) {
     const GLenum format = channels == Channels::bits16 ? GL_RGBA16 : GL_RGBA8;
-    color_ = storage(api, format, width, height, samples);
+    color_ = storage(api, format, width, height, 1);
     depth_ = storage(api, GL_DEPTH_COMPONENT32F, width, height, samples);
     api.BindFramebuffer(GL_FRAMEBUFFER, drawn_.name());
-    attach(api, GL_COLOR_ATTACHMENT0, color_);
     attach(api, GL_DEPTH_ATTACHMENT, depth_);
-    check(api);
     if (samples > 1) {
-        resolved_ = Framebuffer(api);
-        resolvedColor_ = storage(api, format, width, height, 1);
-        api.BindFramebuffer(GL_FRAMEBUFFER, resolved_.name());
-        attach(api, GL_COLOR_ATTACHMENT0, resolvedColor_);
+        samplesOf_ = Texture(api);
+        api.BindTexture(GL_TEXTURE_2D_MULTISAMPLE, samplesOf_.name());
+        api.TexImage2DMultisample(GL_TEXTURE_2D_MULTISAMPLE, samples, format, width, height,
+                                  GL_TRUE);
+        api.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D_MULTISAMPLE,
+                                 samplesOf_.name(), 0);
         check(api);
+        resolved_ = Framebuffer(api);
+        api.BindFramebuffer(GL_FRAMEBUFFER, resolved_.name());
     }
+    attach(api, GL_COLOR_ATTACHMENT0, color_);
+    check(api);
 }
 
 void Target::bind() const {
@@ -55,31 +59,29 @@ void Target::bind() const {
     api_.Viewport(0, 0, width_, height_);
 }
 
-void Target::readAs(GLenum type, void* pixels) const {
-    GLuint source = drawn_.name();
+void Target::readAs(const Resolver& resolve, GLenum type, void* pixels) const {
     if (samples_ > 1) {
-        api_.BindFramebuffer(GL_READ_FRAMEBUFFER, drawn_.name());
-        api_.BindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved_.name());
-        api_.BlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT,
-                             GL_NEAREST);
-        source = resolved_.name();
+        api_.BindFramebuffer(GL_FRAMEBUFFER, resolved_.name());
+        api_.UseProgram(resolve.program);
+        api_.BindVertexArray(resolve.emptyArray);
+        api_.BindTexture(GL_TEXTURE_2D_MULTISAMPLE, samplesOf_.name());
+        api_.DrawArrays(GL_TRIANGLES, 0, 3);
     }
-    api_.BindFramebuffer(GL_READ_FRAMEBUFFER, source);
     api_.PixelStorei(GL_PACK_ALIGNMENT, 1);
     api_.PixelStorei(kPackInvert, GL_TRUE);  // top row first
     api_.ReadPixels(0, 0, width_, height_, GL_RGBA, type, pixels);
 }
 
-void Target::read(Image& image) const {
+void Target::read(const Resolver& resolve, Image& image) const {
     image.width = width_;
     image.height = height_;
     image.pixels.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_) * 4);
-    readAs(GL_UNSIGNED_BYTE, image.pixels.data());
+    readAs(resolve, GL_UNSIGNED_BYTE, image.pixels.data());
 }
 
-void Target::read(std::vector<std::uint16_t>& pixels) const {
+void Target::read(const Resolver& resolve, std::vector<std::uint16_t>& pixels) const {
     pixels.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_) * 4);
-    readAs(GL_UNSIGNED_SHORT, pixels.data());
+    readAs(resolve, GL_UNSIGNED_SHORT, pixels.data());
 }
 
 }  // namespace farol::render::gl

@@ -21,21 +21,29 @@ class Target {
     bool fits(int width, int height, int samples, Channels channels) const {
         return width == width_ && height == height_ && samples == samples_ && channels == channels_;
     }
+    /// The program that makes the mean of a pixel's samples, and an array without attributes.
+    /// (glBlitFramebuffer does the same, but Mesa keeps no compiled code of its shader: it took
+    /// 25 ms of every new process.)
+    struct Resolver {
+        GLuint program = 0, emptyArray = 0;
+    };
+
     void bind() const;
     /// Resolves and reads the picture of 8 bits a channel, top row first, premultiplied alpha as
     /// drawn.
-    void read(Image& image) const;
+    void read(const Resolver& resolve, Image& image) const;
     /// The same of 16 bits a channel, 0..65535.
-    void read(std::vector<std::uint16_t>& pixels) const;
+    void read(const Resolver& resolve, std::vector<std::uint16_t>& pixels) const;
 
   private:
-    void readAs(GLenum type, void* pixels) const;
+    void readAs(const Resolver& resolve, GLenum type, void* pixels) const;
 
     const Api& api_;
     int width_, height_, samples_;
     Channels channels_;
     Framebuffer drawn_, resolved_;
-    Renderbuffer color_, depth_, resolvedColor_;
+    Texture samplesOf_;  ///< the colour, where there are samples
+    Renderbuffer color_, depth_;
 };
 
 }  // namespace farol::render::gl

@@ -1,7 +1,16 @@
 in vec2 windowPosition;
 out vec4 result;
 
-#ifdef SKYBOX
+#if defined(RESOLVE)
+uniform sampler2DMS drawn;
+
+// The mean of a pixel's samples, added up in their order.
+void main() {
+    vec4 sum = vec4(0.0);
+    for (int i = 0; i < RESOLVE; ++i) sum += texelFetch(drawn, ivec2(gl_FragCoord.xy), i);
+    result = sum * (1.0 / RESOLVE);
+}
+#elif defined(SKYBOX)
 uniform samplerCube sky;
 uniform mat3 worldFromView;
 uniform vec2 tangents;  // of half the field of view, across and up

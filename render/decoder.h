@@ -10,7 +10,8 @@ namespace farol::render {
 /// A picture as its file has it: rows from the top, 8 bits a sample, samples of a pixel together.
 struct Decoded {
     int width = 0, height = 0;
-    int channels = 0;  ///< 1 grey, 2 grey and alpha, 3 RGB, 4 RGBA; alpha is not multiplied in
+    int channels = 0;  ///< 1 grey, 2 grey and alpha, 3 RGB, 4 RGBA; alpha is not multiplied
+                       ///< in, and may be 255 throughout where the file has none
     std::vector<std::uint8_t> samples;
 
     std::int64_t pixels() const { return std::int64_t{width} * height; }

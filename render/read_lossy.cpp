@@ -60,18 +60,13 @@ void readJpeg(std::string_view bytes, bool wantsPixels, Decoded& out) {
     out.height = static_cast<int>(info.image_height);
     const bool inks = info.num_components == 4;
     const bool gray = info.num_components == 1;
-    out.channels = inks ? 4 : gray ? 1 : 3;
+    out.channels = gray ? 1 : 4;
     if (!wantsPixels || out.pixels() > kMaxTexturePixels) {
         if (inks) out.channels = 3;
         return;
     }
-#ifdef JCS_ALPHA_EXTENSIONS
-    // Four bytes a pixel at once, as they are wanted: alpha is 255.
+    // Four bytes a pixel at once, as they are wanted (libjpeg-turbo's extension): alpha is 255.
     info.out_color_space = inks ? JCS_CMYK : gray ? JCS_GRAYSCALE : JCS_EXT_RGBA;
-    if (!gray) out.channels = 4;
-#else
-    info.out_color_space = inks ? JCS_CMYK : gray ? JCS_GRAYSCALE : JCS_RGB;
-#endif
     out.allocate();
     jpeg_start_decompress(&info);
     const auto row = static_cast<std::size_t>(out.width) * static_cast<std::size_t>(out.channels);

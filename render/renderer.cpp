@@ -72,12 +72,14 @@ Image chessBoard(const scene::Chess& chess) {
 }
 
 UndecodedTexture openTexture(const TextureRef& ref, const scene::Assets& assets) {
-    if (ref.chess) return {0, [&ref] { return chessBoard(*ref.chess); }};
+    if (ref.chess) return {0, 0, [&ref] { return chessBoard(*ref.chess); }};
     auto bytes = assets.read(ref.path);
     if (!bytes) throw Error("asset.missing", "there is no file '" + ref.path + "'", ref.where);
     const ImageSize size = imageSize(*bytes, ref.path, ref.where);
-    return {std::int64_t{size.width} * size.height,
-            [&ref, bytes = std::move(*bytes)] { return decodeImage(bytes, ref.path, ref.where); }};
+    // Shared, for a copy of the function is no copy of the file.
+    const auto file = std::make_shared<const std::string>(std::move(*bytes));
+    return {size.width, size.height,
+            [&ref, file] { return decodeImage(*file, ref.path, ref.where); }};
 }
 
 /// The debug overlay. No times of the clock: the same request must give the same bytes.

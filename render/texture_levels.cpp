@@ -41,7 +41,7 @@ bool mipmapped(scene::Filter filter) {
 }
 
 void loadTextures(const std::vector<const TextureRef*>& refs, const OpenTexture& open,
-                  const std::function<void(const TextureRef&, const TextureLevels&)>& take) {
+                  const TextureTaker& taker) {
     const std::size_t threads =
         std::clamp<std::size_t>(std::thread::hardware_concurrency(), 1, kMostThreads);
     struct Loading {
@@ -51,10 +51,13 @@ void loadTextures(const std::vector<const TextureRef*>& refs, const OpenTexture&
     };
     std::deque<Loading> loading;  // their destructors wait
     std::int64_t pixels = 0;
+    bool idle = taker.meanwhile != nullptr;
     const auto takeFirst = [&] {
+        if (idle) taker.meanwhile();
+        idle = false;
         Loading first = std::move(loading.front());
         loading.pop_front();
-        take(*first.ref, first.levels.get());
+        taker.take(*first.ref, first.levels.get());
         pixels -= first.pixels;
     };
     for (const TextureRef* ref : refs) {
@@ -65,16 +68,15 @@ void loadTextures(const std::vector<const TextureRef*>& refs, const OpenTexture&
             while (!loading.empty()) takeFirst();  // an earlier one's fault comes first
             throw;
         }
-        while (!loading.empty() &&
-               (loading.size() >= threads || pixels + next.pixels > kPixelsAtOnce))
+        const std::int64_t more = std::int64_t{next.width} * next.height;
+        while (!loading.empty() && (loading.size() >= threads || pixels + more > kPixelsAtOnce))
             takeFirst();
-        pixels += next.pixels;
-        const auto load = [ref, decode = std::move(next.decode)] {
-            return levelsOf(*ref, decode());
-        };
-        // One alone needs no thread.
-        const auto how = refs.size() > 1 ? std::launch::async : std::launch::deferred;
-        loading.push_back({ref, next.pixels, std::async(how, load)});
+        pixels += more;
+        const auto load = [ref, decode = next.decode] { return levelsOf(*ref, decode()); };
+        // One alone needs no thread, where nothing else is to be done meanwhile.
+        const auto how = refs.size() > 1 || idle ? std::launch::async : std::launch::deferred;
+        loading.push_back({ref, more, std::async(how, load)});
+        if (taker.expect) taker.expect(*ref, next);
     }
     while (!loading.empty()) takeFirst();
 }

@@ -21,16 +21,26 @@ bool mipmapped(scene::Filter filter);
 /// A picture whose file is read: how large it claims to be, and how to get it. `decode` may be
 /// called in any thread and may throw Error image.*.
 struct UndecodedTexture {
-    std::int64_t pixels = 0;
+    int width = 0, height = 0;  ///< 0: told by decode alone, and small
     std::function<Image()> decode;
 };
 
 /// Reads a picture's file and its head. May throw Error asset.*, image.*, limit.*.
 using OpenTexture = std::function<UndecodedTexture(const TextureRef&)>;
 
-/// Decodes pictures and makes their levels, several at once; `take` gets them in their order, in
-/// the caller's thread. Of several faults the first in that order is thrown.
+/// What becomes of pictures that are loaded; all of it is called in the caller's thread.
+struct TextureTaker {
+    /// In their order, before they are decoded.
+    std::function<void(const TextureRef&, const UndecodedTexture&)> expect = nullptr;
+    /// Once, while the first of them are being decoded.
+    std::function<void()> meanwhile = nullptr;
+    /// In their order.
+    std::function<void(const TextureRef&, const TextureLevels&)> take;
+};
+
+/// Decodes pictures and makes their levels, several at once. Of several faults the first in their
+/// order is thrown.
 void loadTextures(const std::vector<const TextureRef*>& refs, const OpenTexture& open,
-                  const std::function<void(const TextureRef&, const TextureLevels&)>& take);
+                  const TextureTaker& taker);
 
 }  // namespace farol::render

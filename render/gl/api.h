@@ -69,9 +69,12 @@ namespace farol::render::gl {
     X(PolygonOffset, PFNGLPOLYGONOFFSETPROC)                                         \
     X(ReadPixels, PFNGLREADPIXELSPROC)                                               \
     X(RenderbufferStorageMultisample, PFNGLRENDERBUFFERSTORAGEMULTISAMPLEPROC)       \
+    X(Scissor, PFNGLSCISSORPROC)                                                     \
     X(ShaderSource, PFNGLSHADERSOURCEPROC)                                           \
     X(TexImage2D, PFNGLTEXIMAGE2DPROC)                                               \
     X(TexImage2DMultisample, PFNGLTEXIMAGE2DMULTISAMPLEPROC)                         \
+    X(TexStorage2D, PFNGLTEXSTORAGE2DPROC)                                           \
+    X(TexSubImage2D, PFNGLTEXSUBIMAGE2DPROC)                                         \
     X(TexParameterf, PFNGLTEXPARAMETERFPROC)                                         \
     X(TexParameteri, PFNGLTEXPARAMETERIPROC)                                         \
     X(Uniform1f, PFNGLUNIFORM1FPROC)                                                 \

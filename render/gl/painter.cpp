@@ -7,6 +7,7 @@
 #include <glm/gtc/type_ptr.hpp>
 #include <new>
 #include <optional>
+#include <set>
 
 #include "render/batches.h"
 #include "render/camera.h"
@@ -21,6 +22,7 @@ namespace {
 
 constexpr std::size_t kMeshBytes = std::size_t{256} << 20;
 constexpr std::size_t kTextureBytes = std::size_t{384} << 20;
+constexpr std::size_t kMostAhead = 32;  // programs with textures of one kind each
 
 double sinceMs(std::chrono::steady_clock::time_point begin) {
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin)
@@ -111,6 +113,7 @@ struct Painter::State {
     }
 
     void prepareTextures(const FramePlan& plan, const OpenTexture& open);
+    void compileAhead(const FramePlan& plan);
     void prepare(const FramePlan& plan, const OpenTexture& open);
     void drawPass(const FramePlan& plan, const glm::dvec2& offset, int& drawCalls);
     void drawBackdrop(const FramePlan& plan, int& drawCalls);
@@ -134,14 +137,61 @@ void Painter::State::prepareTextures(const FramePlan& plan, const OpenTexture& o
         textureNames.push_back(textures.find(ref));
         if (textureNames.back() == 0) missing.push_back(&ref);
     }
-    loadTextures(missing, open, [&](const TextureRef& ref, const TextureLevels& levels) {
-        const auto index = static_cast<std::size_t>(&ref - plan.textures.data());
-        textureNames[index] = textures.put(ref, levels, plan.textures.size());
-    });
+    if (missing.empty()) return;
+    std::vector<TextureStore::Reserved> reserved(plan.textures.size());
+    const auto indexOf = [&](const TextureRef& ref) {
+        return static_cast<std::size_t>(&ref - plan.textures.data());
+    };
+    const auto expect = [&](const TextureRef& ref, const UndecodedTexture& coming) {
+        if (ref.cube || coming.width == 0) return;
+        const std::size_t i = indexOf(ref);
+        reserved[i] = textures.reserve(ref, coming.width, coming.height);
+        textureNames[i] = reserved[i].texture.name();
+    };
+    const auto take = [&](const TextureRef& ref, const TextureLevels& levels) {
+        const std::size_t i = indexOf(ref);
+        textureNames[i] = textures.put(ref, std::move(reserved[i]), levels, plan.textures.size());
+    };
+    loadTextures(missing, open, {expect, [&] { compileAhead(plan); }, take});
+}
+
+/// Makes the GL compile its code for this frame, by draws of which no pixel is let through: the
+/// code depends on programs, textures and target, not on what is in them.
+void Painter::State::compileAhead(const FramePlan& plan) {
+    const bool flat = plan.lit && plan.shading == scene::Shading::flat;
+    std::set<std::pair<const LinkedProgram*, GLuint>> done;
+    target->bind();
+    api.Enable(GL_SCISSOR_TEST);
+    api.Scissor(0, 0, 0, 0);
+    for (const Batch& batch : batches.batches) {
+        const DrawItem& first = plan.items[batches.order[batch.first]];
+        const GLuint texture =
+            first.texture < 0 ? 0 : textureNames[static_cast<std::size_t>(first.texture)];
+        if (first.texture >= 0 && texture == 0) continue;  // not even its size is known
+        const LinkedProgram& program = programs.get(keyOf(plan, first, batch.instanced));
+        if (!done.emplace(&program, texture).second) continue;
+        api.UseProgram(program.program.name());
+        if (texture != 0) api.BindTexture(GL_TEXTURE_2D, texture);
+        const auto set = static_cast<std::size_t>(first.lightSet);
+        if (plan.lit && !plan.lightSets[set].empty())
+            api.BindBufferBase(GL_UNIFORM_BUFFER, kLightsBinding, lightBuffers[set].name());
+        api.BindVertexArray(meshes.get(*first.mesh, flat).array.name());
+        api.DrawArrays(GL_TRIANGLES, 0, 3);
+        if (done.size() >= kMostAhead) break;
+    }
+    target->resolve(resolver(target->samples()));
+    api.Disable(GL_SCISSOR_TEST);
 }
 
 void Painter::State::prepare(const FramePlan& plan, const OpenTexture& open) {
-    prepareTextures(plan, open);
+    const Sampling sampled = chooseSampling(plan.samples, mostSamples);
+    const auto channels = sampled.passes > 1 ? Target::Channels::bits16 : Target::Channels::bits8;
+    if (!target || !target->fits(plan.width, plan.height, sampled.samples, channels)) {
+        target.reset();  // the old one first: two large ones need not fit
+        target.emplace(api, plan.width, plan.height, sampled.samples, channels);
+    }
+    // With passes of their own, each sample is shaded: what changes within a pixel is averaged.
+    (sampled.passes > 1 ? api.Enable : api.Disable)(GL_SAMPLE_SHADING);
     batches = batchesOf(plan);
     preparePlaces(plan);
     while (lightBuffers.size() < plan.lightSets.size()) lightBuffers.emplace_back(api);
@@ -152,6 +202,7 @@ void Painter::State::prepare(const FramePlan& plan, const OpenTexture& open) {
                        static_cast<GLsizeiptr>(plan.lightSets[i].size() * sizeof(EyeLight)),
                        plan.lightSets[i].data(), GL_STREAM_DRAW);
     }
+    prepareTextures(plan, open);
 }
 
 /// The places of all instanced batches, one behind the other.
@@ -381,16 +432,9 @@ void Painter::draw(const FramePlan& plan, const OpenTexture& open, Image& image,
     s.prepare(plan, open);
     auto begin = std::chrono::steady_clock::now();
     const Sampling sampled = chooseSampling(plan.samples, s.mostSamples);
-    const auto channels = sampled.passes > 1 ? Target::Channels::bits16 : Target::Channels::bits8;
-    if (!s.target || !s.target->fits(plan.width, plan.height, sampled.samples, channels)) {
-        s.target.reset();  // the old one first: two large ones need not fit
-        s.target.emplace(s.api, plan.width, plan.height, sampled.samples, channels);
-    }
     const Target::Resolver resolve = s.resolver(sampled.samples);
     std::vector<std::uint16_t> part;
     std::vector<std::uint32_t> sum;
-    // With passes of their own, each sample is shaded: what changes within a pixel is averaged.
-    if (sampled.passes > 1) s.api.Enable(GL_SAMPLE_SHADING);
     for (int pass = 0; pass < sampled.passes; ++pass) {
         s.drawPass(plan, passOffset(pass, sampled.passes), drawCalls);
         s.api.Finish();  // else the time of drawing would be counted as reading
@@ -404,7 +448,6 @@ void Painter::draw(const FramePlan& plan, const OpenTexture& open, Image& image,
         }
         timings.readbackMs += sinceMs(drawn);
     }
-    s.api.Disable(GL_SAMPLE_SHADING);
     if (sampled.passes > 1) {
         image.width = plan.width;
         image.height = plan.height;

@@ -59,29 +59,32 @@ void Target::bind() const {
     api_.Viewport(0, 0, width_, height_);
 }
 
-void Target::readAs(const Resolver& resolve, GLenum type, void* pixels) const {
-    if (samples_ > 1) {
-        api_.BindFramebuffer(GL_FRAMEBUFFER, resolved_.name());
-        api_.UseProgram(resolve.program);
-        api_.BindVertexArray(resolve.emptyArray);
-        api_.BindTexture(GL_TEXTURE_2D_MULTISAMPLE, samplesOf_.name());
-        api_.DrawArrays(GL_TRIANGLES, 0, 3);
-    }
+void Target::resolve(const Resolver& resolver) const {
+    if (samples_ <= 1) return;
+    api_.BindFramebuffer(GL_FRAMEBUFFER, resolved_.name());
+    api_.UseProgram(resolver.program);
+    api_.BindVertexArray(resolver.emptyArray);
+    api_.BindTexture(GL_TEXTURE_2D_MULTISAMPLE, samplesOf_.name());
+    api_.DrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void Target::readAs(const Resolver& resolver, GLenum type, void* pixels) const {
+    resolve(resolver);
     api_.PixelStorei(GL_PACK_ALIGNMENT, 1);
     api_.PixelStorei(kPackInvert, GL_TRUE);  // top row first
     api_.ReadPixels(0, 0, width_, height_, GL_RGBA, type, pixels);
 }
 
-void Target::read(const Resolver& resolve, Image& image) const {
+void Target::read(const Resolver& resolver, Image& image) const {
     image.width = width_;
     image.height = height_;
     image.pixels.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_) * 4);
-    readAs(resolve, GL_UNSIGNED_BYTE, image.pixels.data());
+    readAs(resolver, GL_UNSIGNED_BYTE, image.pixels.data());
 }
 
-void Target::read(const Resolver& resolve, std::vector<std::uint16_t>& pixels) const {
+void Target::read(const Resolver& resolver, std::vector<std::uint16_t>& pixels) const {
     pixels.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_) * 4);
-    readAs(resolve, GL_UNSIGNED_SHORT, pixels.data());
+    readAs(resolver, GL_UNSIGNED_SHORT, pixels.data());
 }
 
 }  // namespace farol::render::gl

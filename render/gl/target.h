@@ -28,15 +28,18 @@ class Target {
         GLuint program = 0, emptyArray = 0;
     };
 
+    int samples() const { return samples_; }
     void bind() const;
+    /// Makes the picture of the samples, where there are samples.
+    void resolve(const Resolver& resolver) const;
     /// Resolves and reads the picture of 8 bits a channel, top row first, premultiplied alpha as
     /// drawn.
-    void read(const Resolver& resolve, Image& image) const;
+    void read(const Resolver& resolver, Image& image) const;
     /// The same of 16 bits a channel, 0..65535.
-    void read(const Resolver& resolve, std::vector<std::uint16_t>& pixels) const;
+    void read(const Resolver& resolver, std::vector<std::uint16_t>& pixels) const;
 
   private:
-    void readAs(const Resolver& resolve, GLenum type, void* pixels) const;
+    void readAs(const Resolver& resolver, GLenum type, void* pixels) const;
 
     const Api& api_;
     int width_, height_, samples_;

@@ -10,11 +10,6 @@ constexpr GLenum kMaxAnisotropy = 0x84FF;
 constexpr GLenum kTextureAnisotropy = 0x84FE;
 constexpr float kWantedAnisotropy = 16.0F;
 
-void uploadLevel(const Api& api, GLenum target, GLint level, const Image& image) {
-    api.TexImage2D(target, level, GL_RGBA8, image.width, image.height, 0, GL_RGBA, GL_UNSIGNED_BYTE,
-                   image.pixels.data());
-}
-
 std::string keyOf(const TextureRef& ref) {
     return (ref.cube ? "cube" : std::to_string(static_cast<int>(ref.filter))) + '\n' + ref.key;
 }
@@ -31,38 +26,52 @@ GLuint TextureStore::find(const TextureRef& ref) {
     return known ? known->name() : 0;
 }
 
-GLuint TextureStore::put(const TextureRef& ref, const TextureLevels& levels, std::size_t keep) {
-    Texture texture(api_);
-    std::size_t bytes = 0;
-    for (const Image& image : levels.images) bytes += image.pixels.size();
-    if (ref.cube)
-        uploadFaces(texture, levels);
-    else
-        uploadLevels(texture, ref.filter, levels);
-    return textures_.put(keyOf(ref), std::move(texture), bytes, keep).name();
-}
-
-void TextureStore::uploadLevels(const Texture& texture, scene::Filter filter,
-                                const TextureLevels& levels) {
-    api_.BindTexture(GL_TEXTURE_2D, texture.name());
-    GLint level = 0;
-    for (const Image& image : levels.images) uploadLevel(api_, GL_TEXTURE_2D, level++, image);
-    api_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, level - 1);
-    const GLint magnify = filter == scene::Filter::nearest ? GL_NEAREST : GL_LINEAR;
+TextureStore::Reserved TextureStore::reserve(const TextureRef& ref, int width, int height) {
+    Reserved reserved{Texture(api_), width, height};
+    api_.BindTexture(GL_TEXTURE_2D, reserved.texture.name());
+    GLsizei levels = 1;
+    if (mipmapped(ref.filter))
+        for (int side = std::max(width, height); side > 1; side /= 2) ++levels;
+    api_.TexStorage2D(GL_TEXTURE_2D, levels, GL_RGBA8, width, height);
+    const GLint magnify = ref.filter == scene::Filter::nearest ? GL_NEAREST : GL_LINEAR;
     api_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, magnify);
     api_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER,
-                       mipmapped(filter) ? GL_LINEAR_MIPMAP_LINEAR : magnify);
+                       mipmapped(ref.filter) ? GL_LINEAR_MIPMAP_LINEAR : magnify);
     api_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_REPEAT);
     api_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_REPEAT);
-    if (filter == scene::Filter::anisotropic)
+    if (ref.filter == scene::Filter::anisotropic)
         api_.TexParameterf(GL_TEXTURE_2D, kTextureAnisotropy,
                            std::min(kWantedAnisotropy, maxAnisotropy_));
+    return reserved;
+}
+
+GLuint TextureStore::put(const TextureRef& ref, Reserved reserved, const TextureLevels& levels,
+                         std::size_t keep) {
+    std::size_t bytes = 0;
+    for (const Image& image : levels.images) bytes += image.pixels.size();
+    if (ref.cube) {
+        reserved.texture = Texture(api_);
+        uploadFaces(reserved.texture, levels);
+    } else {
+        const Image& base = levels.images.front();
+        // A file's head may have told another size than its pixels have.
+        if (!reserved.texture || base.width != reserved.width || base.height != reserved.height)
+            reserved = reserve(ref, base.width, base.height);
+        api_.BindTexture(GL_TEXTURE_2D, reserved.texture.name());
+        GLint level = 0;
+        for (const Image& image : levels.images)
+            api_.TexSubImage2D(GL_TEXTURE_2D, level++, 0, 0, image.width, image.height, GL_RGBA,
+                               GL_UNSIGNED_BYTE, image.pixels.data());
+    }
+    return textures_.put(keyOf(ref), std::move(reserved.texture), bytes, keep).name();
 }
 
 void TextureStore::uploadFaces(const Texture& texture, const TextureLevels& faces) {
     api_.BindTexture(GL_TEXTURE_CUBE_MAP, texture.name());
     GLenum face = GL_TEXTURE_CUBE_MAP_POSITIVE_X;
-    for (const Image& image : faces.images) uploadLevel(api_, face++, 0, image);
+    for (const Image& image : faces.images)
+        api_.TexImage2D(face++, 0, GL_RGBA8, image.width, image.height, 0, GL_RGBA,
+                        GL_UNSIGNED_BYTE, image.pixels.data());
     api_.TexParameteri(GL_TEXTURE_CUBE_MAP, GL_TEXTURE_MAX_LEVEL, 0);
     api_.TexParameteri(GL_TEXTURE_CUBE_MAP, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     api_.TexParameteri(GL_TEXTURE_CUBE_MAP, GL_TEXTURE_MIN_FILTER, GL_LINEAR);

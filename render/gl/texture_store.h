@@ -15,11 +15,18 @@ class TextureStore {
     TextureStore(const Api& api, std::size_t maxBytes);
     /// The texture's name, or 0 where it is not here.
     GLuint find(const TextureRef& ref);
-    /// Uploads one that is not here; its name. The `keep` used last stay, whatever they take.
-    GLuint put(const TextureRef& ref, const TextureLevels& levels, std::size_t keep);
+    struct Reserved {
+        Texture texture;
+        int width = 0, height = 0;
+    };
+    /// Memory and filters for one that is not here and no cube map, before its texels are known.
+    Reserved reserve(const TextureRef& ref, int width, int height);
+    /// Uploads one that is not here into what was reserved for it, if it was; its name. The `keep`
+    /// used last stay, whatever they take.
+    GLuint put(const TextureRef& ref, Reserved reserved, const TextureLevels& levels,
+               std::size_t keep);
 
   private:
-    void uploadLevels(const Texture& texture, scene::Filter filter, const TextureLevels& levels);
     void uploadFaces(const Texture& texture, const TextureLevels& faces);
 
     const Api& api_;

@@ -38,25 +38,37 @@ TEST_CASE("pictures come in their order however long each takes, bottom row firs
     const auto open = [](const TextureRef& ref) {
         const int index = std::stoi(ref.key);
         return UndecodedTexture{
-            1 << (index % 26), [index] {
+            1 << (index % 26), 1, [index] {
                 std::this_thread::sleep_for(std::chrono::milliseconds(index % 4 == 0 ? 5 : 0));
                 return column(index + 2);
             }};
     };
-    int next = 0;
+    int next = 0, expected = 0, meanwhile = 0;
     const std::thread::id caller = std::this_thread::get_id();
-    render::loadTextures(pointers(refs), open,
-                         [&](const TextureRef& ref, const TextureLevels& got) {
-                             CHECK(ref.key == std::to_string(next));
-                             CHECK(std::this_thread::get_id() == caller);
-                             REQUIRE(got.images.size() >= 2);
-                             const Image& largest = got.images[0];
-                             REQUIRE(largest.height == next + 2);
-                             CHECK(largest.pixels.front() == next + 1);
-                             CHECK(largest.pixels.back() == 0);
-                             CHECK(got.images.back().height == 1);
-                             ++next;
-                         });
+    const auto take = [&](const TextureRef& ref, const TextureLevels& got) {
+        CHECK(ref.key == std::to_string(next));
+        CHECK(std::this_thread::get_id() == caller);
+        REQUIRE(got.images.size() >= 2);
+        const Image& largest = got.images[0];
+        REQUIRE(largest.height == next + 2);
+        CHECK(largest.pixels.front() == next + 1);
+        CHECK(largest.pixels.back() == 0);
+        CHECK(got.images.back().height == 1);
+        ++next;
+        CHECK(next <= expected);
+    };
+    const auto expect = [&](const TextureRef& ref, const UndecodedTexture& coming) {
+        CHECK(ref.key == std::to_string(expected));
+        CHECK(coming.width == 1 << (expected % 26));
+        ++expected;
+    };
+    const auto idle = [&] {
+        ++meanwhile;
+        CHECK(next == 0);
+        CHECK(expected > 0);
+    };
+    render::loadTextures(pointers(refs), open, {expect, idle, take});
+    CHECK(meanwhile == 1);
     CHECK(next == 30);
 }
 
@@ -68,12 +80,13 @@ TEST_CASE("without smaller levels where the filter reads none") {
                                         {scene::Filter::anisotropic, 4}}) {
         refs[0].filter = filter;
         std::size_t images = 0;
-        render::loadTextures(
-            pointers(refs),
-            [](const TextureRef&) {
-                return UndecodedTexture{8, [] { return column(8); }};
-            },
-            [&](const TextureRef&, const TextureLevels& got) { images = got.images.size(); });
+        render::loadTextures(pointers(refs),
+                             [](const TextureRef&) {
+                                 return UndecodedTexture{1, 8, [] { return column(8); }};
+                             },
+                             {.take = [&](const TextureRef&, const TextureLevels& got) {
+                                 images = got.images.size();
+                             }});
         CHECK(images == static_cast<std::size_t>(count));
     }
 }
@@ -85,7 +98,7 @@ TEST_CASE("of several faults the first in order is told, whether of a head or of
             const auto open = [&](const TextureRef& ref) {
                 const int index = std::stoi(ref.key);
                 if (index == head) throw Error("image.unreadable", "head");
-                return UndecodedTexture{1, [index, pixels]() -> Image {
+                return UndecodedTexture{1, 1, [index, pixels]() -> Image {
                                             if (index == pixels)
                                                 throw Error("image.unreadable", "pixels");
                                             return column(2);
@@ -94,7 +107,7 @@ TEST_CASE("of several faults the first in order is told, whether of a head or of
             std::string told;
             try {
                 render::loadTextures(pointers(refs), open,
-                                     [](const TextureRef&, const TextureLevels&) {});
+                                     {.take = [](const TextureRef&, const TextureLevels&) {}});
             } catch (const Error& error) {
                 told = error.what();
             }

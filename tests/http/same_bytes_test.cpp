@@ -27,7 +27,7 @@ TEST_CASE("pictures do not depend on the number of workers, nor on who asks besi
     }
     REQUIRE(expected[0] != expected[1]);
     for (const char* workers : {"1", "3"}) {
-        Daemon daemon({"--port", "0", "--workers", workers, "--scenes", folder});
+        Daemon daemon({"--port", "0", "--workers", workers, "--queue", "32", "--scenes", folder});
         const int port = portIn(daemon.firstLine());
         std::vector<std::string> got(2 * azimuths.size());  // each asked for twice at once
         std::vector<std::thread> clients;

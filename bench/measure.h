@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -12,6 +11,7 @@
 #include <vector>
 
 #include "render/renderer.h"
+#include "render/stopwatch.h"
 
 /// What the measuring programs share: arguments, the job, medians.
 namespace farol::bench {
@@ -21,18 +21,7 @@ inline double median(std::vector<double> values) {
     return values.empty() ? 0.0 : values[values.size() / 2];
 }
 
-class Stopwatch {
-  public:
-    double lapMs() {
-        const auto now = std::chrono::steady_clock::now();
-        const double ms = std::chrono::duration<double, std::milli>(now - last_).count();
-        last_ = now;
-        return ms;
-    }
-
-  private:
-    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
+using render::Stopwatch;
 
 /// SCENE.xml [--runs N] [--json] [--save STEM] [name=value ...]
 struct Arguments {

@@ -1,7 +1,6 @@
 #include "grade/grader.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "grade/client_area.h"
@@ -15,6 +14,7 @@
 #include "render/image_file.h"
 #include "render/lru.h"
 #include "render/plan.h"
+#include "render/stopwatch.h"
 #include "scene/digest.h"
 
 namespace farol::grade {
@@ -24,20 +24,6 @@ constexpr std::size_t kMeshBytes = std::size_t{128} << 20U;
 constexpr std::size_t kReferences = 8;  // tasks of one class
 constexpr int kJpegQuality = 82;
 constexpr int kNearlyPx = 8;  // a picture of about the window's size was cut by hand
-
-/// Milliseconds since the last call.
-class Stopwatch {
-  public:
-    double lap() {
-        const auto now = std::chrono::steady_clock::now();
-        const double ms = std::chrono::duration<double, std::milli>(now - last_).count();
-        last_ = now;
-        return ms;
-    }
-
-  private:
-    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
 
 /// Names a scene and all its files.
 std::string identityOf(const render::Job& job) {
@@ -125,19 +111,19 @@ struct Grader::State {
                  Grade& grade, Findings& findings) {
         render::Job job = submission.job;
         job.identity = identityOf(job);
-        Stopwatch watch;
+        render::Stopwatch watch;
         auto prepared = std::make_shared<const render::Prepared>(render::prepare(job));
         grade.diagnostics = prepared->diagnostics;
         const Tree tree = growTree(prepared, reference.timesS.front(), meshes);
-        grade.times.readMs += watch.lap();
+        grade.times.readMs += watch.lapMs();
         const SceneComparison found = compareScenes(
             reference.tree, tree, {reference.timesS.front(), reference.timesS.back()});
         findings = found.findings;
-        grade.times.compareMs += watch.lap();
+        grade.times.compareMs += watch.lapMs();
         for (std::size_t i = 0; i < reference.shots.size(); ++i) {
             const Shot& shot = reference.shots[i];
             Frame frame = drawFrame(renderer, job, shot, partsFor(rubric));
-            grade.times.drawMs += watch.lap();
+            grade.times.drawMs += watch.lapMs();
             translate(frame.ids, found);
             ViewGrade view = measure(shot.name, shot.options.timeS, reference.frames[i].color,
                                      frame.color, rubric, false, grade);
@@ -160,7 +146,7 @@ struct Grader::State {
             grade.visible = grade.visible || view.coverage > kSomePixels ||
                             view.normals > kSomePixels || view.depth > kSomePixels;
             grade.views.push_back(std::move(view));
-            grade.times.compareMs += watch.lap();
+            grade.times.compareMs += watch.lapMs();
         }
     }
 

@@ -1,7 +1,6 @@
 #include "render/renderer.h"
 
 #include <cctype>
-#include <chrono>
 #include <map>
 #include <set>
 
@@ -16,6 +15,7 @@
 #include "render/plan.h"
 #include "render/prepare.h"
 #include "render/quality.h"
+#include "render/stopwatch.h"
 #include "scene/animation.h"
 #include "scene/loop.h"
 
@@ -35,20 +35,6 @@ struct PlacedKey {
 struct KeptPlaces {
     std::shared_ptr<const Prepared> prepared;
     Placed placed;
-};
-
-/// Milliseconds since the last call, for stage times.
-class Stopwatch {
-  public:
-    double lap() {
-        const auto now = std::chrono::steady_clock::now();
-        const double ms = std::chrono::duration<double, std::milli>(now - last_).count();
-        last_ = now;
-        return ms;
-    }
-
-  private:
-    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
 Image chessBoard(const scene::Chess& chess) {
@@ -151,7 +137,7 @@ Picture Renderer::draw(const Job& job, Image& image) {
     const std::shared_ptr<const Prepared> kept = state_->scenes.get(job);
     const Prepared& prepared = *kept;
     picture.diagnostics = prepared.diagnostics;
-    picture.times.parseMs = watch.lap();
+    picture.times.parseMs = watch.lapMs();
 
     const Placed& placed = state_->placed(kept, job);
     PictureOptions options = job.options;
@@ -160,13 +146,13 @@ Picture Renderer::draw(const Job& job, Image& image) {
                            job.drawUnseen ? Skipping{false, false, false, false} : Skipping{});
     picture.camera = frame.camera;
     takeFindings(picture.diagnostics, frame.findings, job.strict);
-    picture.times.geometryMs = watch.lap();
+    picture.times.geometryMs = watch.lapMs();
 
     gl::Painter::Timings timings;
     state_->painter.draw(
         frame, [&](const TextureRef& ref) { return openTexture(ref, *prepared.assets); }, image,
         frame.stats.drawCalls, timings);
-    const double total = watch.lap();
+    const double total = watch.lapMs();
     picture.times.drawMs = timings.drawMs;
     picture.times.readbackMs = timings.readbackMs;
     // What the painter did before drawing was decoding and uploading.
@@ -184,7 +170,7 @@ Picture Renderer::render(const Job& job) {
     Picture picture = draw(job, state_->image);
     Stopwatch watch;
     picture.bytes = encode(state_->image, job.options.format, job.options.quality);
-    picture.times.encodeMs = watch.lap();
+    picture.times.encodeMs = watch.lapMs();
     picture.contentType = contentType(job.options.format);
     return picture;
 }

@@ -21,6 +21,9 @@ int defaultSamples(double errorPx) {
     return errorPx >= 1.0 ? 1 : errorPx > 0.08 ? 4 : errorPx > 0.03 ? 8 : 16;
 }
 
+/// Triangles of a frame from which on meshes are drawn as coarse as they come: copies that all fill
+/// the view would each be fine enough for it, and a frame take minutes. Some seconds' worth.
+constexpr std::int64_t kMostRefined = 16'000'000;
 constexpr double kAxisLength = 100.0;  // as the course draws them
 // Where the third-person camera holds its entity: in front of the eye, in eye space.
 constexpr glm::dvec3 kEntityPlace{0.0, 0.0, -3.0};
@@ -245,7 +248,7 @@ class Planner {
         const scene::Model& model = *instance.model;
         DrawItem item;
         item.mesh = instance.mesh;
-        if (instance.open) {
+        if (instance.open && plan_.stats.triangles < kMostRefined) {
             const std::optional<SeenSurface> seen =
                 instance.surface >= 0 && wantsSurface()
                     ? seenSurface(list.surfaces[static_cast<std::size_t>(instance.surface)],

@@ -192,3 +192,22 @@ TEST_CASE("a picture that only a model outside the view shows is not asked for")
     CHECK(whole.textures.size() == 2);
     CHECK(whole.stats.texturesSkipped == 0);
 }
+
+TEST_CASE("tessellation on demand is bounded over all copies, not for each alone") {
+    scene::Scene scene = sceneAt({{0, 0, 8.5}});
+    scene.groups[0].models[0].source.words = {"sphere", "1"};
+    PictureOptions fine;
+    fine.width = fine.height = 4096;
+    fine.errorPx = 0.01;
+    const std::int64_t alone = planOf(scene, fine).stats.triangles;
+    const std::int64_t bound = 16'000'000;
+    constexpr int kCopies = 3000;
+    REQUIRE(alone * kCopies > 2 * bound);
+    scene::Scatter heap;
+    heap.count = kCopies;
+    scene.groups[0].scatter = heap;
+    const FramePlan plan = planOf(scene, fine);
+    CHECK(plan.items.size() == kCopies);
+    CHECK(plan.stats.triangles > bound);
+    CHECK(plan.stats.triangles < bound + alone + kCopies * 1000);  // coarse spheres have 960
+}

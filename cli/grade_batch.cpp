@@ -47,8 +47,8 @@ bool isWhole(const std::string& path) {
     return std::filesystem::exists(path) && unpackInto(kept, readInput(path));
 }
 
-/// Asks again where the worker is lost or its memory full: that may be what earlier submissions left
-/// in it, and the next worker is a fresh one. Who is late is not asked again.
+/// Asks again where the worker is lost or its memory full: that may be what earlier submissions
+/// left in it, and the next worker is a fresh one. Who is late is not asked again.
 server::GradeReply ask(server::Backend& backend, const server::GradeJob& job) {
     try {
         return backend.grade(job).result;

@@ -27,12 +27,7 @@ std::string upper(std::string text) {
 
 std::string helpOf(const generator::Shape& shape) {
     std::ostringstream text;
-    text << "  " << shape.name << (shape.takesFile ? " FILE" : "");
-    for (std::size_t i = 0; i < shape.arguments.size(); ++i) {
-        const std::string name = upper(shape.arguments[i].name);
-        text << (i < shape.required ? " " + name : " [" + name + "]");
-    }
-    text << "\n      " << shape.summary << "\n";
+    text << "  " << generator::usageOf(shape) << "\n      " << shape.summary << "\n";
     for (const generator::Argument& one : shape.arguments)
         text << "      " << upper(one.name) << ": " << one.help << "; "
              << (one.integer ? "a whole number " : "") << one.min << ".." << one.max << "\n";

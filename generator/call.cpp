@@ -17,15 +17,6 @@ std::string spell(double value) {
     return {text, end};
 }
 
-std::string usage(const Shape& shape) {
-    std::string text = shape.name + (shape.takesFile ? " FILE" : "");
-    for (std::size_t i = 0; i < shape.arguments.size(); ++i) {
-        const std::string& name = shape.arguments[i].name;
-        text += i < shape.required ? " " + name : " [" + name + "]";
-    }
-    return text;
-}
-
 /// What the user wrote, quoted and of bounded length.
 std::string quoted(const std::string& word) {
     constexpr std::size_t kShown = 40;
@@ -33,7 +24,16 @@ std::string quoted(const std::string& word) {
 }
 
 [[noreturn]] void refuse(const Shape& shape, const std::string& what) {
-    throw Error("shape.argument", what + "; usage: " + usage(shape));
+    throw Error("shape.argument", what + "; usage: " + usageOf(shape));
+}
+
+/// The cure for a decimal comma, where that is all that is wrong.
+std::string pointFor(std::string word) {
+    const std::size_t comma = word.find(',');
+    if (comma == std::string::npos) return "";
+    word[comma] = '.';
+    double value = 0;
+    return parseNumber(word, value) ? " (write " + quoted(word) + ")" : "";
 }
 
 double readValue(const Shape& shape, const Argument& argument, const std::string& word) {
@@ -43,11 +43,21 @@ double readValue(const Shape& shape, const Argument& argument, const std::string
         (argument.integer && value != std::floor(value)))
         refuse(shape, "the argument " + argument.name + " of " + shape.name + " must be " + kind +
                           " from " + spell(argument.min) + " to " + spell(argument.max) + ", not " +
-                          quoted(word));
+                          quoted(word) + pointFor(word));
     return value;
 }
 
 }  // namespace
+
+std::string usageOf(const Shape& shape) {
+    if (!shape.form.empty()) return shape.form;
+    std::string text = shape.name + (shape.takesFile ? " FILE" : "");
+    for (std::size_t i = 0; i < shape.arguments.size(); ++i) {
+        const std::string& name = shape.arguments[i].name;
+        text += i < shape.required ? " " + name : " [" + name + "]";
+    }
+    return text;
+}
 
 bool parseNumber(const std::string& word, double& value) {
     const char* begin = word.data();
@@ -65,8 +75,11 @@ Call parseCall(const std::vector<std::string>& words) {
         std::vector<std::string> names;
         for (const Shape& one : shapes()) names.push_back(one.name);
         const std::string near = scene::didYouMean(words[0], names);
-        throw Error("shape.unknown", "there is no shape " + quoted(words[0]) +
-                                         (near.empty() ? "" : "; did you mean \"" + near + "\"?"));
+        std::string all;
+        for (const std::string& name : names) all += (all.empty() ? "" : ", ") + name;
+        throw Error("shape.unknown",
+                    "there is no shape " + quoted(words[0]) +
+                        (near.empty() ? "; there are " + all : "; did you mean \"" + near + "\"?"));
     }
     Call call;
     call.shape = shape;
@@ -82,8 +95,10 @@ Call parseCall(const std::vector<std::string>& words) {
     if (call.given < shape->required)
         refuse(*shape, "the argument " + shape->arguments[call.given].name + " of " + shape->name +
                            " is missing");
-    for (const Argument& argument : shape->arguments) {
+    for (const Argument& own : shape->arguments) {
         const bool written = at < words.size();
+        const bool last = own.whenLast && call.values.size() + 1 == call.given;
+        const Argument& argument = last ? shape->arguments[*own.whenLast] : own;
         const std::string word = written ? words[at++] : "";
         const bool automatic = word == "auto" && argument.level;
         call.values.push_back(written && !automatic ? readValue(*shape, argument, word)

@@ -23,6 +23,8 @@ struct Argument {
     std::string help;
     double fallback = 0;  ///< the value where the argument is left out
     bool level = false;   ///< fineness alone: left out or "auto", it may be chosen on demand
+    /// The argument that this word is instead where it is the last one: of "box 2 3" the 3 is DIV.
+    std::optional<std::size_t> whenLast = {};
 };
 
 /// One registered shape. `required` arguments come first; the rest have defaults on demand.
@@ -33,7 +35,11 @@ struct Shape {
     std::size_t required;
     bool takesFile;  ///< the first word after the name is a profile or patch file
     std::vector<std::string> aliases = {};
+    std::string form = "";  ///< how its arguments are written, where brackets cannot say it
 };
+
+/// How a shape is written: "cone RADIUS HEIGHT [SLICES] [STACKS]".
+std::string usageOf(const Shape& shape);
 
 /// All shapes, in the order of the help.
 std::span<const Shape> shapes();

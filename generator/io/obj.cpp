@@ -4,6 +4,7 @@
 #include <unordered_map>
 
 #include "generator/io/formats.h"
+#include "generator/io/polygon.h"
 #include "generator/io/repair.h"
 #include "generator/io/writer.h"
 
@@ -115,9 +116,13 @@ class Reader {
         for (std::string_view word = nextWord(line); !word.empty(); word = nextWord(line))
             face.push_back(corner(word));
         if (face.size() < 3) fail("mesh.syntax", "a face needs at least three corners");
-        for (std::size_t k = 2; k < face.size(); ++k)
-            corners_.insert(corners_.end(), {face[0], face[k - 1], face[k]});
-        checkTriangles(corners_.size() / 3, file_);
+        checkTriangles(corners_.size() / 3 + face.size() - 2, file_);
+        places_.clear();
+        for (const Corner& one : face)
+            places_.push_back(positions_[static_cast<std::size_t>(one[0])]);
+        triangulate(places_, triangles_);
+        for (const auto& [a, b, c] : triangles_)
+            corners_.insert(corners_.end(), {face[a], face[b], face[c]});
     }
 
     /// True when all corners name the part: otherwise it is left out (or computed) for all.
@@ -177,6 +182,8 @@ class Reader {
     std::vector<glm::vec3> positions_, normals_;
     std::vector<glm::vec2> uvs_;
     std::vector<Corner> corners_;
+    std::vector<glm::vec3> places_;  // of the face being read
+    std::vector<FaceTriangle> triangles_;
 };
 
 }  // namespace

@@ -1,4 +1,5 @@
 #include "generator/io/formats.h"
+#include "generator/io/polygon.h"
 
 namespace farol::generator::io {
 namespace {
@@ -29,6 +30,8 @@ Mesh decodeOff(std::string_view bytes, const std::string& fileName) {
         if (row.count < 3) rows.refuse("mesh.syntax", row, "expected 3 numbers");
         mesh.positions.emplace_back(v[0], v[1], v[2]);
     }
+    std::vector<glm::vec3> places;
+    std::vector<FaceTriangle> triangles;
     for (std::size_t i = first; i < first + static_cast<std::size_t>(faces); ++i) {
         const Row& row = rows.rows[i];
         const double* v = rows.at(row);  // the number of corners, these, perhaps a colour
@@ -37,9 +40,13 @@ Mesh decodeOff(std::string_view bytes, const std::string& fileName) {
         const auto corner = [&](std::size_t k) {
             return indexIn(rows, row, v[1 + k], mesh.positions.size());
         };
-        for (std::size_t k = 2; k < static_cast<std::size_t>(v[0]); ++k)
-            mesh.indices.insert(mesh.indices.end(), {corner(0), corner(k - 1), corner(k)});
-        checkTriangles(mesh.triangles(), fileName);
+        const auto corners = static_cast<std::size_t>(v[0]);
+        checkTriangles(mesh.triangles() + corners - 2, fileName);
+        places.clear();
+        for (std::size_t k = 0; k < corners; ++k) places.push_back(mesh.positions[corner(k)]);
+        triangulate(places, triangles);
+        for (const auto& [a, b, c] : triangles)
+            mesh.indices.insert(mesh.indices.end(), {corner(a), corner(b), corner(c)});
     }
     if (mesh.indices.empty()) rows.refuse("mesh.empty", head, "the OFF file holds no faces");
     return mesh;

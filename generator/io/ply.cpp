@@ -6,6 +6,7 @@
 
 #include "generator/io/formats.h"
 #include "generator/io/ply_header.h"
+#include "generator/io/polygon.h"
 #include "generator/io/writer.h"
 
 namespace farol::generator::io {
@@ -147,13 +148,17 @@ void readVertices(Values& values, const PlyElement& element, Mesh& mesh) {
 }
 
 void readFaces(Values& values, const PlyElement& element, Mesh& mesh, const std::string& file) {
+    std::vector<std::uint32_t> face;
+    std::vector<glm::vec3> places;
+    std::vector<FaceTriangle> triangles;
     for (std::size_t i = 0; i < element.count; ++i) {
         for (const PlyProperty& property : element.properties) {
             std::size_t length = property.list ? listLength(values, property) : 1;
             const bool corners = property.list && (property.name == "vertex_indices" ||
                                                    property.name == "vertex_index");
             if (corners && length < 3) values.fail("mesh.syntax", "a face needs three corners");
-            std::array<std::uint32_t, 2> fan{};
+            face.clear();
+            places.clear();
             for (std::size_t k = 0; k < length; ++k) {
                 const double value = values.next(property.type);
                 if (!corners) continue;
@@ -162,10 +167,14 @@ void readFaces(Values& values, const PlyElement& element, Mesh& mesh, const std:
                                                   std::to_string(mesh.positions.size()) +
                                                   " vertices");
                 const auto at = static_cast<std::uint32_t>(value);
-                if (k >= 2) mesh.indices.insert(mesh.indices.end(), {fan[0], fan[1], at});
-                fan[k == 0 ? 0 : 1] = at;
-                checkTriangles(mesh.triangles(), file);
+                face.push_back(at);
+                places.push_back(mesh.positions[at]);
+                if (k >= 2) checkTriangles(mesh.triangles() + k - 1, file);
             }
+            if (!corners) continue;
+            triangulate(places, triangles);
+            for (const auto& [a, b, c] : triangles)
+                mesh.indices.insert(mesh.indices.end(), {face[a], face[b], face[c]});
         }
     }
 }

@@ -69,13 +69,14 @@ Mesh box(const glm::dvec3& size, std::size_t divisions, scene::UvLayout layout) 
 }
 
 Entry boxEntry() {
-    // The second number means divisions where there are two, the second edge where there are more.
+    // The second number means divisions where it is the last, else the second edge.
     static constexpr auto divisionsOf = [](const Call& call) {
         return call.given == 2 ? call.count(1) : call.given == 4 ? call.count(3) : std::size_t{1};
     };
-    Argument second = lengthArgument("Y", "edge along Y; the divisions a side when it is the last");
+    Argument second = lengthArgument("Y", "edge along Y");
     Argument third = lengthArgument("Z", "edge along Z");
     second.fallback = third.fallback = 1;
+    second.whenLast = 3;
     return {{"box",
              "a box centred at the origin: X alone is a cube, X DIV a divided cube, X Y Z [DIV] "
              "a box",
@@ -83,7 +84,8 @@ Entry boxEntry() {
               Argument{"DIV", true, 1, kMaxCount, "divisions a side", 1}},
              1,
              false,
-             {"cube"}},
+             {"cube"},
+             "box X [DIV], or box X Y Z [DIV]"},
             [](const Call& call, const std::string&, scene::UvLayout uv) {
                 const double x = call.length(0);
                 const glm::dvec3 size =
@@ -92,12 +94,6 @@ Entry boxEntry() {
             },
             [](const Call& call, const std::string&) {
                 return 12 * divisionsOf(call) * divisionsOf(call);
-            },
-            [](const Call& call) -> std::string {
-                const double div = call.values[1];
-                if (call.given == 2 && (div < 1 || div > kMaxCount || div != std::floor(div)))
-                    return "the argument DIV of box must be a whole number from 1 to 100000";
-                return "";
             }};
 }
 

@@ -61,19 +61,20 @@ export function parseView(view: URLSearchParams): ViewLink {
   };
 }
 
+/** As exact as pictures are asked for (`orbitOptions`): who follows a link sees the same pixels. */
 export function formatView(view: ViewLink): string {
   const out = new URLSearchParams();
   if (view.walk) {
     out.set('eye', formatVec(view.walk.eye));
-    out.set('yaw', String(Number(view.walk.yaw.toFixed(2))));
-    out.set('pitch', String(Number(view.walk.pitch.toFixed(2))));
+    out.set('yaw', String(Number(view.walk.yaw.toFixed(4))));
+    out.set('pitch', String(Number(view.walk.pitch.toFixed(4))));
   } else if (view.orbit) {
-    out.set('az', String(Number(view.orbit.azimuth.toFixed(2))));
-    out.set('el', String(Number(view.orbit.elevation.toFixed(2))));
-    out.set('d', String(Number(view.orbit.distance.toPrecision(6))));
-    out.set('at', formatVec(view.orbit.target));
+    out.set('az', String(Number(view.orbit.azimuth.toFixed(4))));
+    out.set('el', String(Number(view.orbit.elevation.toFixed(4))));
+    out.set('d', String(Number(view.orbit.distance.toPrecision(8))));
+    out.set('at', formatVec(view.orbit.target, 8));
   }
-  if (view.time) out.set('t', String(Number(view.time.toFixed(2))));
+  if (view.time) out.set('t', String(Number(view.time.toFixed(3))));
   for (const [name, value] of Object.entries(view.options)) out.set(name, value);
   return out.toString().replaceAll('%2C', ',');
 }

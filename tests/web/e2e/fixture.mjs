@@ -12,7 +12,7 @@ const require = createRequire(join(root, 'build/web/package.json'));
 export const { chromium } = require('playwright-core');
 export const axePath = require.resolve('axe-core/axe.min.js');
 
-const binary = process.env.FAROL_BINARY ?? join(root, 'build/release/farol');
+export const binary = process.env.FAROL_BINARY ?? join(root, 'build/release/farol');
 
 /** A daemon of its own; `stop` ends it. */
 export async function startServer({ scenes = join(root, 'scenes'), args = [] } = {}) {
@@ -122,6 +122,17 @@ export const picturePixels = (page, url) => page.evaluate(async (address) => {
   const digest = await crypto.subtle.digest('SHA-256', data);
   return { width: canvas.width, height: canvas.height, digest: [...new Uint8Array(digest)].join() };
 }, url);
+
+/** Drops files on the page, as a hand would: [{ name, bytes }]. */
+export async function drop(page, files, selector = 'body') {
+  const data = await page.evaluateHandle((list) => {
+    const transfer = new DataTransfer();
+    for (const { name, base64 } of list) transfer.items.add(new File([Uint8Array.from(atob(base64), (c) => c.charCodeAt(0))], name));
+    return transfer;
+  }, files.map(({ name, bytes }) => ({ name, base64: Buffer.from(bytes).toString('base64') })));
+  await page.dispatchEvent(selector, 'dragover', { dataTransfer: data });
+  await page.dispatchEvent(selector, 'drop', { dataTransfer: data });
+}
 
 export const close = (actual, expected, tolerance, what) =>
   assert.ok(Math.abs(Number(actual) - expected) <= tolerance, `${what}: ${actual} is not ${expected}`);

@@ -118,7 +118,10 @@ test('a long way to the server is met by more requests, not by smaller frames', 
 test('the time of a picture is split by Server-Timing', () => {
   assert.deepEqual(parseServerTiming('queue;dur=1.5, draw;desc="x";dur=3,encode'), { queue: 1.5, draw: 3 });
   const split = splitLatency(20, 'queue;dur=1, parse;dur=2, geometry;dur=3, draw;dur=4, readback;dur=1, encode;dur=2');
-  assert.deepEqual(split, { total: 20, queue: 1, prepare: 5, draw: 5, encode: 2, network: 7 });
+  assert.deepEqual(split, { total: 20, queue: 1, prepare: 5, draw: 5, encode: 2, network: 7, page: 0 });
+  // Where the last byte's time is known, the rest is the page's own: it is not blamed on the network.
+  const busy = splitLatency(20, 'queue;dur=1, draw;dur=9', 12);
+  assert.deepEqual([busy.network, busy.page, busy.total], [2, 8, 20]);
   assert.equal(splitLatency(1, 'draw;dur=5').network, 0);
   assert.equal(median([3, 1, 2]), 2);
   const rate = new FrameRate();

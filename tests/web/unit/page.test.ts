@@ -47,6 +47,11 @@ test('bundles: litter is left out, a mesh gets a scene, too much is told', async
   assert.ok('body' in mesh);
   const scene = (mesh.body().body as FormData).get('scene') as File;
   assert.match(await scene.text(), /<model file="hare.ply"\/>/);
+  const both = bundleOf([file('m/a&b.stl'), file('m/c.3DB'), file('m/notes.txt')]);
+  assert.ok('body' in both);
+  const together = await ((both.body().body as FormData).get('scene') as File).text();
+  assert.match(together, /<title>a&amp;b.stl and 1 more<\/title>/);
+  assert.deepEqual(together.match(/<model file="[^"]*"/g), ['<model file="a&amp;b.stl"', '<model file="c.3DB"']);
   assert.ok('message' in bundleOf([file('x.pdf')]));
   assert.ok('message' in bundleOf([file('s.xml', 17 * 1024 * 1024)]));
 });

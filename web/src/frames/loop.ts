@@ -11,6 +11,7 @@ export interface Ask {
 export interface Answer<Picture> {
   picture: Picture;
   serverTiming: string | null;
+  wireMs?: number | null; // until the last byte, where it is known
 }
 
 export interface Shown<Picture> {
@@ -122,7 +123,7 @@ export class FrameLoop<Picture> {
         if (generation !== this.generation || seq <= this.shownSeq) this.hooks.discard(answer.picture);
         else {
           this.shownSeq = seq;
-          const latency = splitLatency(this.hooks.now() - start, answer.serverTiming);
+          const latency = splitLatency(this.hooks.now() - start, answer.serverTiming, answer.wireMs);
           if (pace) this.adaptation.add(latency);
           this.hooks.show({ picture: answer.picture, seq, moving: pace !== null, latency });
         }

@@ -1,11 +1,12 @@
 // Where the time of a picture went, from its Server-Timing header and the clock here.
 export interface Latency {
   total: number; // ms, from the request to the decoded picture
-  network: number; // what the server did not spend
+  network: number; // under way: what the server did not spend until the last byte came
   queue: number;
   prepare: number; // parse and geometry
   draw: number; // draw and readback
   encode: number;
+  page: number; // decoding, and waiting for this page, which may be busy
 }
 
 /** "queue;dur=1.5, draw;dur=3" -> { queue: 1.5, draw: 3 } */
@@ -20,11 +21,13 @@ export function parseServerTiming(header: string | null): Record<string, number>
   return out;
 }
 
-export function splitLatency(total: number, header: string | null): Latency {
+/** `wire` is the time from the request to its last byte; null where the browser does not tell it. */
+export function splitLatency(total: number, header: string | null, wire: number | null = null): Latency {
   const t = parseServerTiming(header);
   const of = (...names: string[]): number => names.reduce((sum, name) => sum + (t[name] ?? 0), 0);
   const queue = of('queue'), prepare = of('parse', 'geometry'), draw = of('draw', 'readback'), encode = of('encode');
-  return { total, queue, prepare, draw, encode, network: Math.max(0, total - queue - prepare - draw - encode) };
+  const until = wire === null ? total : Math.min(wire, total);
+  return { total, queue, prepare, draw, encode, network: Math.max(0, until - queue - prepare - draw - encode), page: total - until };
 }
 
 /** Frames a second over the last second, from the times at which frames were shown. */
@@ -43,6 +46,13 @@ export class FrameRate {
   clear(): void {
     this.times = [];
   }
+}
+
+/** The time of a request until its last byte. It frees the browser's record, which holds few of them. */
+export function takeWireTime(url: string): number | null {
+  const entry = performance.getEntriesByName(url, 'resource').at(-1) as PerformanceResourceTiming | undefined;
+  performance.clearResourceTimings();
+  return entry && entry.responseEnd > 0 ? entry.responseEnd - entry.startTime : null;
 }
 
 export function median(values: readonly number[]): number {

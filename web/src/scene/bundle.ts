@@ -28,7 +28,8 @@ export function formOf({ main, files }: Loose, text?: string): FormData {
 const maxFiles = 256; // the service's bound on parts
 const maxBytes = 16 * 1024 * 1024;
 
-const meshEndings = /\.(3d|obj|ply|tri|patch)$/i;
+// What the generator reads: see generator/registry.cpp.
+const meshEndings = /\.(3d|3db|obj|ply|tri|stl|off|patch)$/i;
 const archives: [RegExp, string][] = [
   [/\.zip$/i, 'application/zip'],
   [/\.tar$/i, 'application/x-tar'],
@@ -61,16 +62,15 @@ export function mainScene(paths: readonly string[]): string | null {
 
 const escapeXml = (text: string): string => text.replaceAll('&', '&amp;').replaceAll('<', '&lt;').replaceAll('"', '&quot;');
 
-/** A scene that shows one mesh, lit from the camera. */
-export const meshScene = (path: string): string => `<world>
-    <title>${escapeXml(path.replace(/^.*\//, ''))}</title>
+/** A scene that shows meshes where their files put them, lit from the camera. */
+export const meshScene = (paths: readonly string[]): string => `<world>
+    <title>${escapeXml((paths[0] ?? '').replace(/^.*\//, ''))}${paths.length > 1 ? ` and ${paths.length - 1} more` : ''}</title>
     <lights>
         <light type="directional" space="camera" alpha="25" beta="35"/>
     </lights>
     <group>
         <models>
-            <model file="${escapeXml(path)}"/>
-        </models>
+${paths.map((path) => `            <model file="${escapeXml(path)}"/>\n`).join('')}        </models>
     </group>
 </world>
 `;
@@ -88,10 +88,11 @@ export function bundleOf(files: readonly NamedFile[]): Bundle | { message: strin
   const parts = kept.map(({ file }, i) => ({ path: paths[i] as string, file: file as Blob }));
   let main = mainScene(paths);
   if (!main) {
-    const mesh = paths.find((path) => meshEndings.test(path));
-    if (!mesh) return { message: 'There is no scene (.xml), mesh (.obj, .ply, .3d, .tri, .patch) or archive (.zip, .tar) among these files' };
+    const meshes = paths.filter((path) => meshEndings.test(path));
+    if (meshes.length === 0)
+      return { message: 'There is no scene (.xml), mesh (.3d, .3db, .obj, .ply, .stl, .off, .tri, .patch) or archive (.zip, .tar, .tar.gz) among these files' };
     main = 'scene.xml';
-    parts.push({ path: main, file: new Blob([meshScene(mesh)], { type: 'application/xml' }) });
+    parts.push({ path: main, file: new Blob([meshScene(meshes)], { type: 'application/xml' }) });
   }
   const loose = { main, files: parts };
   return { name: kept[0]?.path.split('/')[0] ?? main, loose, body: () => ({ body: formOf(loose) }) };

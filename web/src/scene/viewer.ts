@@ -6,7 +6,7 @@ import {
   type SceneFacts,
 } from '../api.ts';
 import { FrameLoop, type Shown } from '../frames/loop.ts';
-import { FrameRate, type Latency } from '../frames/timing.ts';
+import { FrameRate, takeWireTime, type Latency } from '../frames/timing.ts';
 import { orbitOf, walkOf, walkTarget, type LookAt, type Orbit, type Walk } from '../maths/camera.ts';
 import { formatView, replaceAddress, scenePlace, type ViewLink } from '../router.ts';
 import type { Loose } from './bundle.ts';
@@ -78,7 +78,8 @@ export class Viewer {
         else options['format'] = 'png';
         const response = await fetchPicture(this.origin(), { ...options, session: this.session, seq }, signal);
         if (!response) return undefined;
-        return { picture: await decodeFrame(response, options), serverTiming: response.headers.get('Server-Timing') };
+        const picture = await decodeFrame(response, options);
+        return { picture, serverTiming: response.headers.get('Server-Timing'), wireMs: takeWireTime(response.url) };
       },
       show: (shown) => this.show(shown),
       discard: (frame) => frame.bitmap.close(),

@@ -14,7 +14,7 @@ export function showHud(on: boolean): void {
 }
 
 const parts: [keyof Latency, string][] = [
-  ['network', 'network'], ['queue', 'queue'], ['prepare', 'prepare'], ['draw', 'draw'], ['encode', 'encode'],
+  ['network', 'network'], ['queue', 'queue'], ['prepare', 'prepare'], ['draw', 'draw'], ['encode', 'encode'], ['page', 'page'],
 ];
 
 const count = (n: number | undefined): string =>

@@ -20,6 +20,8 @@ function LightNote({ viewer }: { viewer: Viewer }) {
   );
 }
 
+export const focusStage = (): void => document.querySelector<HTMLElement>('.stage')?.focus({ preventScroll: true });
+
 export function Stage({ viewer, actions }: { viewer: Viewer; actions: Actions }) {
   const stage = useRef<HTMLDivElement>(null);
   const canvas = useRef<HTMLCanvasElement>(null);
@@ -38,6 +40,8 @@ export function Stage({ viewer, actions }: { viewer: Viewer; actions: Actions })
       size: () => ({ width: box.clientWidth, height: box.clientHeight, ratio: window.devicePixelRatio || 1 }),
     };
     const stop = listen(box, viewer, actions);
+    // Whoever opens a scene can use its keys at once, unless something else was chosen meanwhile.
+    if (document.activeElement === document.body) focusStage();
     const observer = new ResizeObserver(() => viewer.resized());
     observer.observe(box);
     return () => {

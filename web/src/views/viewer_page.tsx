@@ -7,7 +7,7 @@ import { local } from '../upload.ts';
 import { Viewer } from '../scene/viewer.ts';
 import { newScene } from '../scene/template.ts';
 import { recall, remember } from '../storage.ts';
-import { Stage } from './stage.tsx';
+import { focusStage, Stage } from './stage.tsx';
 import { TimeBar } from './time_bar.tsx';
 import { Toolbar } from './toolbar.tsx';
 import { Findings } from './ui.tsx';
@@ -86,13 +86,19 @@ export function ViewerPage({ id, view }: { id: string | null; view: URLSearchPar
     const { pickModel } = await import('../scene/pick.ts');
     await pickModel(viewer, x, y);
   };
+  // The keys are the picture's: a click on a tool gives them back to it, the keyboard's own way stays as it is.
+  const keysBack = (event: MouseEvent): void => {
+    const at = event.target as Element;
+    if (event.detail === 0 || at.closest('input, select, textarea, a, dialog, .below') || !(getSelection()?.isCollapsed ?? true)) return;
+    focusStage();
+  };
   const light = async (alpha: number, beta: number): Promise<void> => {
     const { turnLight } = await import('../scene/camera_light.ts');
     await turnLight(viewer, alpha, beta);
   };
   return (
     <main class={panel.value === 'none' ? 'viewer' : 'viewer with-panel'} id="main">
-      <div class="view">
+      <div class="view" onClick={keysBack}>
         <div class="title">
           <h1>{title}</h1>
           {facts?.description && <p title={facts.description}>{facts.description}</p>}

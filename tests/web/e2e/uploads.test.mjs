@@ -1,0 +1,93 @@
+// What may be dropped: a mesh of every kind, several files, archives.
+import assert from 'node:assert/strict';
+import { spawnSync } from 'node:child_process';
+import { cpSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { after, before, test } from 'node:test';
+import { binary, canvasPixels, drop, launch, openPage, root, settled, startServer } from './fixture.mjs';
+
+let server, browser, scratch;
+before(async () => {
+  scratch = mkdtempSync(join(tmpdir(), 'farol-web-'));
+  [server, browser] = await Promise.all([startServer(), launch()]);
+});
+after(async () => {
+  await browser?.close();
+  await server?.stop();
+  rmSync(scratch, { recursive: true, force: true });
+});
+
+const run = (command, ...args) => {
+  const { status, stderr, error } = spawnSync(command, args, { encoding: 'utf8', cwd: scratch });
+  assert.equal(status, 0, `${command} ${args.join(' ')}: ${error ?? stderr}`);
+};
+/** Drops files on the gallery; what opened is on show. */
+async function opened(files) {
+  const view = await openPage(browser, `${server.url}/`);
+  await view.page.waitForSelector('.card:not(.ghost)');
+  await drop(view.page, files);
+  await view.page.waitForURL(/#\/scene\/(~|%7E)/);
+  await settled(view);
+  return view;
+}
+const file = (name) => ({ name: name.replace(/^.*\//, ''), bytes: readFileSync(join(scratch, name)) });
+/** How many of the picture's pixels are not of its corner's colour. */
+const covered = (view) => view.page.evaluate(() => {
+  const canvas = document.querySelector('.stage canvas'), { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+  let count = 0;
+  for (let i = 4; i < data.length; i += 4) count += data[i] !== data[0] || data[i + 1] !== data[1] || data[i + 2] !== data[2] ? 1 : 0;
+  return count / (canvas.width * canvas.height);
+});
+
+test('a mesh of every kind that is read opens alone, lit and framed', async () => {
+  for (const name of ['box.3d', 'box.3db', 'box.obj', 'box.ply']) run(binary, 'generate', 'box', '2', '1', name);
+  writeFileSync(join(scratch, 'roof.stl'), ['solid roof', ...[[[2, 0, 0], [0, 0, 0], [1, 1, 1]], [[2, 0, 2], [2, 0, 0], [1, 1, 1]], [[0, 0, 2], [2, 0, 2], [1, 1, 1]], [[0, 0, 0], [0, 0, 2], [1, 1, 1]]]
+    .map((corners) => `facet normal 0 0 0\nouter loop\n${corners.map((one) => `vertex ${one.join(' ')}`).join('\n')}\nendloop\nendfacet`), 'endsolid roof', ''].join('\n'));
+  writeFileSync(join(scratch, 'roof.off'), 'OFF\n5 4 0\n0 0 0\n2 0 0\n2 0 2\n0 0 2\n1 1 1\n3 1 0 4\n3 2 1 4\n3 3 2 4\n3 0 3 4\n');
+  cpSync(join(root, 'generator/data/teapot.patch'), join(scratch, 'teapot.patch'));
+  for (const name of ['box.3d', 'box.3db', 'box.obj', 'box.ply', 'roof.stl', 'roof.off', 'teapot.patch']) {
+    const view = await opened([file(name)]);
+    assert.equal(await view.page.locator('h1').innerText(), name);
+    const share = await covered(view);
+    assert.ok(share > 0.05 && share < 0.95, `${name} covers ${share} of the picture`);
+    await view.close();
+  }
+});
+
+test('several meshes are shown together', async () => {
+  run(binary, 'generate', 'box', '2', '1', 'one.obj');
+  run(binary, 'generate', 'sphere', '1', '16', '8', 'two.ply');
+  const view = await opened([file('one.obj'), file('two.ply')]);
+  assert.equal(await view.page.locator('h1').innerText(), 'one.obj and 1 more');
+  const { counts } = await (await fetch(`${server.url}/v1/scenes/${decodeURIComponent(/scene\/([^?]+)/.exec(view.page.url())[1])}`)).json();
+  assert.equal(counts.models, 2);
+  await view.close();
+});
+
+test('a scene dropped with its texture, zipped and as a tar gives the same picture', async () => {
+  mkdirSync(join(scratch, 'ball'), { recursive: true });
+  cpSync(join(root, 'scenes/solar-system/earth.jpg'), join(scratch, 'ball/earth.jpg'));
+  writeFileSync(join(scratch, 'ball/scene.xml'), '<world><group><models><model file="sphere_1_32_16.3d"><texture file="earth.jpg"/></model></models></group></world>');
+  run('python3', '-m', 'zipfile', '-c', 'ball.zip', 'ball/');
+  run('tar', '-czf', 'ball.tar.gz', 'ball');
+  run('tar', '-cf', 'ball.tar', 'ball');
+  const digests = [];
+  for (const files of [['ball/scene.xml', 'ball/earth.jpg'], ['ball.zip'], ['ball.tar.gz'], ['ball.tar']]) {
+    const view = await opened(files.map(file));
+    digests.push((await canvasPixels(view.page)).digest);
+    await view.close();
+  }
+  assert.deepEqual(digests, digests.map(() => digests[0]));
+});
+
+test('what is no scene is told in a sentence, and the page stays', async () => {
+  const view = await openPage(browser, `${server.url}/`);
+  await view.page.waitForSelector('.card:not(.ghost)');
+  await drop(view.page, [{ name: 'notes.pdf', bytes: Buffer.from('%PDF-1.4') }]);
+  await view.page.getByText('There is no scene (.xml), mesh (').waitFor();
+  await drop(view.page, [{ name: 'broken.zip', bytes: Buffer.from('PK\x03\x04 and nothing more') }]);
+  await view.page.getByRole('heading', { name: '“broken.zip” has problems' }).waitFor();
+  assert.match(view.page.url(), /\/(#\/)?$/);
+  await view.close();
+});

@@ -96,7 +96,10 @@ std::string readInput(const std::string& path) {
         const ssize_t got = ::read(file.get(), chunk, sizeof chunk);
         if (got < 0 && errno == EINTR) continue;
         if (got < 0)
-            throw Error("asset.unreadable", "cannot be read: " + reason(errno), {path, 0, 0});
+            throw Error("asset.unreadable",
+                        errno == EISDIR ? "is a folder; name the file in it that is meant"
+                                        : "cannot be read: " + reason(errno),
+                        {path, 0, 0});
         if (got == 0) return bytes;
         bytes.append(chunk, static_cast<std::size_t>(got));
         if (bytes.size() > kMaxInputBytes)

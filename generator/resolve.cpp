@@ -71,7 +71,7 @@ class Resolver {
         const auto [known, fresh] = files_.try_emplace(file);
         if (fresh) {
             known->second.path = scene::locate(assets_, file, where, diagnostics_);
-            if (!known->second.path) known->second.hint = nearestFile(file, assets_);
+            if (!known->second.path) known->second.hint = cure(file, {});
         }
         if (known->second.path)
             path = *known->second.path;
@@ -126,7 +126,7 @@ class Resolver {
         throw Error("asset.missing",
                     "there is no file \"" + model.file +
                         "\", no generator comment for it, and its name is no shape's" +
-                        nearestFile(model.file, assets_, shapeNames(model.file)));
+                        cure(model.file, shapeNames(model.file)));
     }
 
     /// A comment that makes no sense counts for nothing where the name itself says all.
@@ -173,8 +173,8 @@ class Resolver {
             if (const auto path = scene::locate(assets_, call.file, model.where, diagnostics_))
                 source.path = *path;
             else if (!builtinFile(call.file))
-                throw Error("asset.missing", "there is no file \"" + call.file + "\"" +
-                                                 nearestFile(call.file, assets_));
+                throw Error("asset.missing",
+                            "there is no file \"" + call.file + "\"" + cure(call.file, {}));
         } else {
             countTriangles(words, assets_);  // throws over the limit
         }
@@ -203,6 +203,16 @@ class Resolver {
         std::vector<std::string> names;
         for (const Shape& one : shapes()) names.push_back(one.name + rest);
         return names;
+    }
+
+    /// What to do about a file that is not there: the nearest name, if any is near.
+    std::string cure(const std::string& file, const std::vector<std::string>& candidates) const {
+        std::string points = baseNameOf(file);
+        std::replace(points.begin(), points.end(), ',', '.');
+        if (points != baseNameOf(file) && wordsOfName(points))
+            return "; write a point for the comma: \"" + points + "\"";
+        const std::string near = nearestFile(file, assets_, candidates);
+        return near.empty() ? "; add it to the scene's files, or mend the name" : near;
     }
 
     struct FoundFile {

@@ -46,6 +46,11 @@ void SceneBuilder::groupElement(std::string_view canonical, pugi::xml_node eleme
 
 void SceneBuilder::transforms(pugi::xml_node element, Group& group, GroupState& state) {
     const ElementSpec& spec = elementSpec("transform");
+    if (state.transform)
+        findings().warn("scene.duplicate-transform", at(element),
+                        "a second <" + shown(element.name()) +
+                            "> in one group; both are applied, in this order");
+    state.transform = true;
     values(element, spec, isOrdered() ? Unknown::error : Unknown::warning);
     children(element, spec, [&](std::string_view canonical, pugi::xml_node child) {
         transform(canonical, child, group, state);

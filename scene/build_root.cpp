@@ -147,7 +147,7 @@ void SceneBuilder::camera(pugi::xml_node element) {
     Camera made;
     made.where = at(element);
     bool damaged = false, hasPosition = false;
-    Location up = made.where;
+    Location up = made.where, range = made.where;
     const ElementSpec& spec = elementSpec("camera");
     values(element, spec);
     std::set<std::string_view> seen;
@@ -167,25 +167,34 @@ void SceneBuilder::camera(pugi::xml_node element) {
             made.fovDeg = given.number("fov", made.fovDeg);
             made.near = given.number("near", made.near);
             made.far = given.number("far", made.far);
+            range = at(child);
         }
     });
     if (!hasPosition)
         findings().warn("scene.missing-element", at(element),
                         "<camera> has no <position>; 0 0 5 is taken");
     scene_.camera = made;
-    if (!damaged) checkCamera(made, up);
+    if (!damaged) checkCamera(made, up, range);
 }
 
-void SceneBuilder::checkCamera(const Camera& camera, const Location& up) {
-    if (camera.up == glm::dvec3(0.0))
+void SceneBuilder::checkCamera(const Camera& camera, const Location& up, const Location& range) {
+    const bool noUp = camera.up == glm::dvec3(0.0);
+    if (noUp)
         findings().error("scene.zero-direction", up,
                          "<up> of the camera is zero; give at least one of x, y and z");
     const double size = std::fmax(glm::length(camera.eye), glm::length(camera.target));
-    if (glm::length(camera.eye - camera.target) <= 1e-12 * size)
+    const glm::dvec3 view = camera.target - camera.eye;
+    if (glm::length(view) <= 1e-12 * size)
         findings().error("scene.camera", camera.where,
-                         "<position> and <lookAt> of the camera are the same point");
+                         "<position> and <lookAt> of the camera are the same point; move one");
+    else if (!noUp &&
+             glm::length(glm::cross(glm::normalize(view), glm::normalize(camera.up))) <= 1e-9)
+        findings().warn(
+            "scene.camera", up,
+            "<up> of the camera is parallel to its view, so that nothing says what is up "
+            "in the picture; the axis farthest from it is taken");
     if (camera.far <= camera.near)
-        findings().error("scene.camera", camera.where,
+        findings().error("scene.camera", range,
                          "the camera's far (" + formatNumber(camera.far) +
                              ") must be more than its near (" + formatNumber(camera.near) + ")");
 }

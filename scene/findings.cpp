@@ -50,6 +50,18 @@ void Findings::keep(Severity severity, std::string code, Location where, std::st
         ++dropped_;
 }
 
+void Findings::dropFollowUps() {
+    const bool torn = std::any_of(all_.begin(), all_.end(), [](const Diagnostic& one) {
+        return one.severity == Severity::error &&
+               (one.code == "xml.unclosed" || one.code == "xml.mismatch");
+    });
+    if (!torn) return;
+    std::erase_if(all_, [](const Diagnostic& one) {
+        return one.code == "scene.misplaced" || one.code == "scene.order" ||
+               one.code == "scene.missing-element";
+    });
+}
+
 Diagnostics Findings::take() const {
     std::map<std::string, int> files;
     for (const Diagnostic& one : all_)

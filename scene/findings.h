@@ -18,6 +18,10 @@ class Findings {
     void error(std::string code, Location where, std::string message);
     void add(Diagnostics found);
 
+    /// Where elements are open too long or closed too often, leaves out what was said of things
+    /// in the wrong place: they stand where they were meant.
+    void dropFollowUps();
+
     bool failed() const { return failed_; }
     /// True while nothing but information was found.
     bool clean() const { return !failed_ && !warned_; }

@@ -1,5 +1,6 @@
 #include "scene/number.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -37,7 +38,14 @@ ParsedNumber parseNumber(std::string_view text) {
             if (c == ',') c = '.';
         return {0.0, "has a decimal comma; write " + quoted(mended)};
     }
-    if (!left.empty() && !sameWord(left, "f")) return {0.0, "is not a number"};
+    if (!left.empty() && !sameWord(left, "f")) {
+        const auto isLetter = [](char c) {
+            return static_cast<unsigned char>(c) >= 0x80 ||
+                   (lowerCase(c) >= 'a' && lowerCase(c) <= 'z');
+        };
+        const bool unit = std::all_of(left.begin(), left.end(), isLetter);  // "60deg", "5s"
+        return {0.0, unit ? "is not a number; write " + quoted(read) : "is not a number"};
+    }
     if (failed == std::errc::result_out_of_range) {
         if (underflows(read)) return {0.0, ""};
         return {0.0, "is too large; the largest is 1e18"};

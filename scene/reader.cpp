@@ -58,6 +58,7 @@ ReadResult read(std::string_view xml, const ReadOptions& options, const Assets& 
     } catch (const Error& error) {
         findings.add(error.diagnostics());
     }
+    findings.dropFollowUps();
     result.diagnostics = findings.take();
     if (!findings.failed()) return result;
     // A broken document decides over what a broken document seems to say.

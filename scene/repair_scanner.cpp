@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "scene/number.h"
+#include "scene/tables.h"
 #include "scene/text.h"
 #include "scene/words.h"
 
@@ -58,6 +60,15 @@ bool declaresLatin1(std::string_view text) {
     return false;
 }
 
+/// What closes an element that was left open.
+std::string closing(std::string_view name) {
+    for (const ElementSpec& one : elementSpecs())
+        if (one.children.empty() && (sameWord(one.name, name) || isAmong(one.aliases, name)) &&
+            !sameWord(name, "title") && !sameWord(name, "description"))
+            return "end its tag with \"/>\"";
+    return "write </" + shown(name) + ">";
+}
+
 }  // namespace
 
 RepairScanner::RepairScanner(std::string_view source, const LineIndex& lines,
@@ -79,9 +90,10 @@ Repaired RepairScanner::run() {
     }
     // One finding, for the innermost: what is round it is open for the same reason.
     if (!open_.empty() && !truncated_)
-        findings_.error(
-            "xml.unclosed", where(open_.back().offset),
-            "<" + shown(open_.back().name) + "> is not closed: the document ends inside it");
+        findings_.error("xml.unclosed", where(open_.back().offset),
+                        "<" + shown(open_.back().name) +
+                            "> is not closed: the document ends inside it; " +
+                            closing(open_.back().name));
     while (!open_.empty()) pop();
     if (!rootSeen_)
         findings_.error("xml.no-root", where(0), "there is no element: this is not a scene's XML");
@@ -111,9 +123,12 @@ void RepairScanner::text(std::size_t end) {
     if (!open_.empty() && open_.back().keepsText) {
         copy(at_, end);
     } else if (first < end) {
-        findings_.warn("xml.stray-text", where(first),
-                       "the stray text " + quoted(trimmed(source_.substr(first, end - first))) +
-                           " is ignored");
+        const std::string_view stray = trimmed(source_.substr(first, end - first));
+        const bool number = parseNumber(stray).problem.empty();
+        findings_.warn(
+            "xml.stray-text", where(first),
+            "the stray text " + quoted(stray) + " is ignored" +
+                (number ? "; values are written as attributes: name=" + quoted(stray) : ""));
     }
 }
 
@@ -201,7 +216,8 @@ void RepairScanner::endTag() {
         for (std::size_t i = 0; i < inner; ++i) {
             findings_.error("xml.unclosed", where(open_.back().offset),
                             "<" + shown(open_.back().name) + "> is not closed before </" +
-                                shown(closed) + "> in line " + std::to_string(where(begin).line));
+                                shown(closed) + "> in line " + std::to_string(where(begin).line) +
+                                "; " + closing(open_.back().name));
             pop();
         }
         if (open_.back().name != closed)
@@ -214,12 +230,21 @@ void RepairScanner::endTag() {
     const bool misspelt =
         !open_.empty() && !findings_.crowded() &&
         !didYouMean(std::string(closed), {std::string(open_.back().name)}).empty();
-    findings_.error("xml.mismatch", where(begin),
-                    "</" + shown(closed) +
-                        (misspelt ? "> closes <" + shown(open_.back().name) + ">; did you mean </" +
-                                        shown(open_.back().name) + ">?"
-                                  : "> closes an element that is not open"));
+    findings_.error(
+        "xml.mismatch", where(begin),
+        "</" + shown(closed) +
+            (misspelt ? "> closes <" + shown(open_.back().name) + ">; did you mean </" +
+                            shown(open_.back().name) + ">?"
+                      : "> closes an element that is not open" + closedEarlier(closed)));
     if (misspelt) pop();
+}
+
+/// Of an end tag too many: where its element may have been closed by "/>" unintended.
+std::string RepairScanner::closedEarlier(std::string_view name) const {
+    const auto found = emptied_.find(lowerCase(name));
+    if (found == emptied_.end()) return "";
+    return "; was it to close <" + shown(name) + "> in line " +
+           std::to_string(where(found->second).line) + "? That is closed by its \"/>\" already";
 }
 
 void RepairScanner::push(std::string_view name, std::size_t offset) {

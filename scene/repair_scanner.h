@@ -32,6 +32,7 @@ class RepairScanner {
     std::pair<std::size_t, std::size_t> bareValue();
     void push(std::string_view name, std::size_t offset);
     void pop();
+    std::string closedEarlier(std::string_view name) const;
 
     // The source.
     bool ended() const { return at_ >= source_.size(); }
@@ -54,6 +55,8 @@ class RepairScanner {
     Findings& findings_;
     Repaired result_;
     std::vector<Open> open_;
+    /// Where containers were closed by "/>" last, by name: for end tags too many.
+    std::map<std::string, std::size_t> emptied_;
     std::size_t at_ = 0;
     bool rootSeen_ = false;
     bool latin1_ = false;

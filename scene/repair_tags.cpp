@@ -2,6 +2,7 @@
 #include <charconv>
 
 #include "scene/repair_scanner.h"
+#include "scene/tables.h"
 #include "scene/words.h"
 
 namespace farol::scene {
@@ -15,6 +16,13 @@ bool isNameByte(char c) {
 bool isLegal(unsigned long code) {
     return code == 9 || code == 10 || code == 13 || (code >= 0x20 && code < 0xD800) ||
            (code > 0xDFFF && code < 0xFFFE) || (code > 0xFFFF && code < 0x110000);
+}
+
+bool hasChildren(std::string_view name) {
+    const auto specs = elementSpecs();
+    return std::any_of(specs.begin(), specs.end(), [name](const ElementSpec& one) {
+        return sameWord(one.name, name) && !one.children.empty();
+    });
 }
 
 }  // namespace
@@ -47,6 +55,16 @@ void RepairScanner::startTag() {
                 if (next > 1)
                     findings_.warn("xml.blank", where(at_), "a blank between \"/\" and \">\"");
                 at_ += next + 1;
+                literal(">");
+                if (hasChildren(element)) emptied_[lowerCase(element)] = begin;
+                pop();
+                return;
+            }
+            if (next > 1 && peek(next) == '<') {  // "<up y="1" /" and the next line
+                findings_.warn(
+                    "xml.tag", where(begin),
+                    "the tag <" + shown(element) + "> ends with \"/\" alone; write \"/>\"");
+                at_ += next;
                 literal(">");
                 pop();
                 return;

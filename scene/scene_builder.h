@@ -34,7 +34,7 @@ class SceneBuilder {
     /// What a group has had so far: the order matters to the older dialects.
     struct GroupState {
         std::set<std::string_view> transforms;
-        bool models = false, lights = false, content = false, isRoot = false;
+        bool transform = false, models = false, lights = false, content = false, isRoot = false;
     };
     using RootReader = void (SceneBuilder::*)(pugi::xml_node);
 
@@ -43,7 +43,7 @@ class SceneBuilder {
     bool rootElement(std::string_view canonical, pugi::xml_node element);
     void window(pugi::xml_node element);
     void camera(pugi::xml_node element);
-    void checkCamera(const Camera& camera, const Location& up);
+    void checkCamera(const Camera& camera, const Location& up, const Location& range);
     void colors(pugi::xml_node element);
     void skybox(pugi::xml_node element);
     void background(pugi::xml_node element);

@@ -74,15 +74,27 @@ class AttributeReader {
     }
 
     void unknownName(pugi::xml_attribute attribute, Unknown unknown, Values& values) {
-        std::string message = "<" + shown(element_) + "> has no attribute " +
-                              quoted(attribute.name()) +
-                              suggestion(attribute.name(), attributeNames(spec_), findings_);
+        std::string hint = suggestion(attribute.name(), attributeNames(spec_), findings_);
+        if (hint.empty()) hint = fewNames();
+        const std::string message =
+            "<" + shown(element_) + "> has no attribute " + quoted(attribute.name()) + hint;
         if (unknown == Unknown::error) {
             values.damaged = true;
             findings_.error("scene.unknown-attribute", document_.at(attribute), message);
         } else {
             findings_.warn("scene.unknown-attribute", document_.at(attribute), message);
         }
+    }
+
+    /// "; it has x, y and z", where there are few.
+    std::string fewNames() const {
+        constexpr std::size_t kFew = 6;
+        const auto& all = spec_.attributes;
+        if (all.empty() || all.size() > kFew) return "";
+        std::string text = "; it has ";
+        for (std::size_t i = 0; i < all.size(); ++i)
+            text += (i == 0 ? "" : i + 1 == all.size() ? " and " : ", ") + std::string(all[i].name);
+        return text;
     }
 
     bool flag(Values::Entry& entry, std::string_view name) {

@@ -196,3 +196,45 @@ TEST_CASE("messages quote a bounded part of a file's name") {
         CHECK(std::string(error.what()).size() < 200);
     }
 }
+
+TEST_CASE("what is said of names that students write") {
+    struct Row {
+        const char *file, *code, *message;
+    };
+    const Row rows[] = {
+        {"models\\ship.3d", "asset.found-elsewhere",
+         "\"models\\ship.3d\" is not there; \"models/Ship.3d\" is taken instead"},
+        {"C:\\Users\\ana\\ship.3d", "asset.found-elsewhere",
+         "\"C:\\Users\\ana\\ship.3d\" is not there; \"models/Ship.3d\" is taken instead"},
+        {"../scenes/ship.3d", "asset.found-elsewhere",
+         "\"../scenes/ship.3d\" is not there; \"models/Ship.3d\" is taken instead"},
+        {"spaceship.3d", "asset.missing",
+         "there is no file \"spaceship.3d\", no generator comment for it, and its name is no "
+         "shape's; add it to the scene's files, or mend the name"},
+        {"shpi.3d", "asset.missing",
+         "there is no file \"shpi.3d\", no generator comment for it, and its name is no shape's; "
+         "did you mean \"Ship.3d\"?"},
+        {"spere_1_8_8.3d", "asset.missing",
+         "there is no file \"spere_1_8_8.3d\", no generator comment for it, and its name is no "
+         "shape's; did you mean \"sphere_1_8_8.3d\"?"},
+        {"sphere_0,5_8_8.3d", "asset.missing",
+         "there is no file \"sphere_0,5_8_8.3d\", no generator comment for it, and its name is no "
+         "shape's; write a point for the comma: \"sphere_0.5_8_8.3d\""},
+        {"sphere_1_-8_8.3d", "shape.argument",
+         "the argument SLICES of sphere must be a whole number from 3 to 100000, not \"-8\"; "
+         "usage: sphere RADIUS [SLICES] [STACKS]"},
+        {"box_2_0.3d", "shape.argument",
+         "the argument DIV of box must be a whole number from 1 to 100000, not \"0\"; usage: box "
+         "X [DIV], or box X Y Z [DIV]"},
+        {"sphere.3d", "shape.guessed",
+         "\"sphere.3d\" does not exist and its name gives no size: \"sphere 1\" is taken"},
+    };
+    for (const Row& row : rows) {
+        CAPTURE(row.file);
+        const Result found = resolved({row.file, "", ""});
+        REQUIRE_FALSE(found.diagnostics.empty());
+        CHECK(found.diagnostics[0].code == row.code);
+        CHECK(found.diagnostics[0].message == row.message);
+        CHECK(found.diagnostics[0].where.line == 7);
+    }
+}

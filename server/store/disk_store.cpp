@@ -100,8 +100,11 @@ bool DiskStore::drop(const std::string& id) {
 }
 
 SceneStore::Put DiskStore::put(const scene::Bundle& bundle, bool listed) {
-    Stored scene{{idOf(bundle), listed, {}, 0}, std::make_shared<const scene::Bundle>(bundle)};
+    Stored scene;
     Entry& entry = scene.entry;
+    entry.id = idOf(bundle);
+    entry.listed = listed;
+    scene.bundle = std::make_shared<const scene::Bundle>(bundle);
     const std::lock_guard alone(writing_);
     bool created = true;
     {

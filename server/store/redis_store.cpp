@@ -99,8 +99,10 @@ RedisReply RedisStore::required(const char* script,
 }
 
 SceneStore::Put RedisStore::put(const scene::Bundle& bundle, bool listed) {
-    Stored scene{{idOf(bundle), false, Time::max(), 0},
-                 std::make_shared<const scene::Bundle>(bundle)};
+    Stored scene;
+    scene.entry.id = idOf(bundle);
+    scene.entry.expires = Time::max();
+    scene.bundle = std::make_shared<const scene::Bundle>(bundle);
     // What may change of a scene is beside its file, which so is the same whoever sends it.
     const std::string file = encodeScene(scene);
     refuseLargerThan(limits_, file.size());

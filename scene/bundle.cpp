@@ -1,6 +1,7 @@
 #include "scene/bundle.h"
 
 #include <algorithm>
+#include <iterator>
 #include <vector>
 
 #include "scene/digest.h"
@@ -13,6 +14,15 @@ constexpr std::size_t kShownCandidates = 5;
 
 bool isDocument(const std::string& path) {
     return path.size() > 4 && sameWord(std::string_view(path).substr(path.size() - 4), ".xml");
+}
+
+bool isMesh(const std::string& path) {
+    static constexpr std::string_view kEndings[] = {".3d",  ".3db", ".obj", ".ply",
+                                                    ".tri", ".stl", ".off", ".patch"};
+    return std::any_of(std::begin(kEndings), std::end(kEndings), [&](std::string_view ending) {
+        return path.size() > ending.size() &&
+               sameWord(std::string_view(path).substr(path.size() - ending.size()), ending);
+    });
 }
 
 }  // namespace
@@ -29,11 +39,23 @@ std::string mainOf(const std::map<std::string, std::string>& files) {
     for (const auto& [path, content] : files)
         if (isDocument(path)) candidates.push_back(path);
     if (candidates.size() == 1) return candidates.front();
-    if (candidates.empty())
-        throw Error("bundle.no-scene",
-                    "There is no scene among the files: no part named \"scene\", no scene.xml and "
-                    "no other .xml file.",
-                    {}, "scene");
+    if (candidates.empty()) {
+        std::string message =
+            "There is no scene among the files: no part named \"scene\", no scene.xml and no other "
+            ".xml file.";
+        const auto mesh = std::find_if(files.begin(), files.end(),
+                                       [](const auto& one) { return isMesh(one.first); });
+        // A word of a document cannot hold quotes, and a name with them is better not shown as
+        // code.
+        if (mesh != files.end() && mesh->first.find_first_of("\"<&") == std::string::npos)
+            message +=
+                " A mesh is drawn by a scene that names it: add a scene.xml with <world><group>"
+                "<models><model file=\"" +
+                mesh->first + "\"/></models></group></world>.";
+        else
+            message += " Add a scene.xml that names them.";
+        throw Error("bundle.no-scene", message, {}, "scene");
+    }
     std::string names;
     for (std::size_t i = 0; i < std::min(candidates.size(), kShownCandidates); ++i)
         names += (i == 0 ? "" : ", ") + quoted(candidates[i]);

@@ -1,15 +1,22 @@
 #include "server/log.h"
 
+#include <unistd.h>
+
+#include <cerrno>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <ctime>
 #include <nlohmann/json.hpp>
+#include <string_view>
+#include <utility>
 
 #include "server/problem.h"
 
 namespace farol::server {
 namespace {
+
+constexpr std::size_t kMostWaiting = std::size_t{1} << 20U;  // bytes of lines
 
 std::string timestamp() {
     const auto now = std::chrono::system_clock::now();
@@ -56,12 +63,38 @@ void Logger::event(const std::string& name, const std::string& message) {
     write(line.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
 }
 
-void Logger::write(const std::string& line) {
-    const std::lock_guard lock(mutex_);
-    if (sink_)
-        sink_(line);
-    else
-        std::fprintf(stderr, "%s\n", line.c_str());
+void Logger::put(const std::vector<std::string>& lines) const {
+    std::string all;
+    for (const std::string& line : lines) {
+        if (sink_)
+            sink_(line);
+        else
+            all.append(line).append("\n");
+    }
+    // Nobody could be told that the log cannot be written.
+    for (std::string_view rest = all; !rest.empty();) {
+        const ssize_t done = ::write(STDERR_FILENO, rest.data(), rest.size());
+        if (done < 0 && errno == EINTR) continue;
+        if (done < 0) return;
+        rest.remove_prefix(static_cast<std::size_t>(done));
+    }
+}
+
+void Logger::write(std::string line) {
+    std::unique_lock lock(mutex_);
+    room_.wait(lock, [this] { return waitingBytes_ < kMostWaiting || !isWriting_; });
+    waitingBytes_ += line.size();
+    waiting_.push_back(std::move(line));
+    if (std::exchange(isWriting_, true)) return;
+    while (!waiting_.empty()) {
+        const std::vector<std::string> lines = std::exchange(waiting_, {});
+        const bool wasFull = std::exchange(waitingBytes_, 0) >= kMostWaiting;
+        lock.unlock();
+        if (wasFull) room_.notify_all();
+        put(lines);
+        lock.lock();
+    }
+    isWriting_ = false;
 }
 
 }  // namespace farol::server

@@ -1,15 +1,18 @@
 #pragma once
 
+#include <condition_variable>
 #include <functional>
 #include <mutex>
 #include <string>
+#include <vector>
 
 #include "server/http/message.h"
 
 namespace farol::server {
 
 /// One line of JSON a request: time, id, method, path, status, bytes, ms and what the handler
-/// adds. Threads may share it.
+/// adds. Threads may share it: one writes, the others leave their lines to it and go on, unless
+/// whoever reads the log is far behind.
 class Logger {
   public:
     /// Gets each line, without its end; null writes to stderr.
@@ -22,9 +25,15 @@ class Logger {
     void event(const std::string& name, const std::string& message);
 
   private:
-    void write(const std::string& line);
+    void write(std::string line);
+    void put(const std::vector<std::string>& lines) const;
+
     Sink sink_;
     std::mutex mutex_;
+    std::condition_variable room_;
+    std::vector<std::string> waiting_;  ///< for the thread that writes
+    std::size_t waitingBytes_ = 0;
+    bool isWriting_ = false;
 };
 
 }  // namespace farol::server

@@ -22,13 +22,15 @@ std::optional<http::Response> PictureCache::find(const std::string& tag) {
     }
     ++(found ? hits_ : misses_);
     if (!found) return std::nullopt;
-    return *found;  // copied outside of the lock
+    return *found;  // copied outside of the lock, but for the bytes, which are shared
 }
 
 void PictureCache::put(const std::string& tag, const http::Response& response) {
     const std::size_t cost = costOf(response);
     if (cost > most_ / kLeastPictures) return;
     auto kept = std::make_shared<http::Response>(response);
+    kept->shared = std::make_shared<const std::string>(std::move(kept->body));
+    kept->body.clear();
     kept->logged.clear();
     std::erase_if(kept->headers, [](const auto& field) { return field.first == "Server-Timing"; });
     kept->set("Server-Timing", "cache;desc=hit");

@@ -151,18 +151,22 @@ http::Response Service::getImage(const Call& call, const http::Fields& preset) {
     Parameters wanted = readParameters(call.request.query, {true, true, kDrawnNames, preset});
     checkOnError(wanted);
     const Turn turn = turnOf(wanted);
-    const ServedScene scene = sceneOf(call.parameter);
+    ServedScene scene = sceneOf(call.parameter);
     chooseFormat(wanted, call.request.header("accept"));
-    render::Job job = jobOfScene(scene);
-    job.options = wanted.picture;
-    job.strict = wanted.strict;
-    const std::string tag = entityTag({job.xml, scene.version, keyOf(wanted), backend_.version()});
+    const auto tagOf = [&] {
+        return entityTag({scene.document, scene.version, keyOf(wanted), backend_.version()});
+    };
+    std::string tag = tagOf();
     http::Response response;
     if (matchesTag(call.request.header("if-none-match"), tag)) {
         response.status = 304;
     } else if (auto kept = pictures_.find(tag)) {
         response = std::move(*kept);
     } else {
+        render::Job job = jobToDraw(scene);
+        job.options = wanted.picture;
+        job.strict = wanted.strict;
+        tag = tagOf();
         response = drawn(backend_.render(job, tag, turn));
         pictures_.put(tag, response);
     }
@@ -195,18 +199,22 @@ http::Response Service::getTurntable(const Call& call) {
         throw Error("http.not-acceptable",
                     "A turn is image/apng or multipart/x-mixed-replace, and the Accept header does "
                     "not take what was asked for.");
-    const ServedScene scene = sceneOf(call.parameter);
-    render::Job job = jobOfScene(scene);
-    job.options = wanted.picture;
-    job.strict = wanted.strict;
-    const std::string tag =
-        entityTag({job.xml, scene.version, keyOf(wanted), backend_.version(), type,
-                   std::to_string(turn.frames), std::to_string(turn.fps)});
+    ServedScene scene = sceneOf(call.parameter);
+    const auto tagOf = [&] {
+        return entityTag({scene.document, scene.version, keyOf(wanted), backend_.version(), type,
+                          std::to_string(turn.frames), std::to_string(turn.fps)});
+    };
+    std::string tag = tagOf();
     http::Response response;
-    if (matchesTag(call.request.header("if-none-match"), tag))
+    if (matchesTag(call.request.header("if-none-match"), tag)) {
         response.status = 304;
-    else
+    } else {
+        render::Job job = jobToDraw(scene);
+        job.options = wanted.picture;
+        job.strict = wanted.strict;
+        tag = tagOf();
         response = drawn(backend_.turntable(job, turn));
+    }
     response.set("ETag", tag);
     response.set("Vary", "Accept");
     return response;

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "generator/registry.h"
+#include "scene/digest.h"
 #include "scene/words.h"
 #include "server/etag.h"
 #include "server/json.h"
@@ -66,7 +67,7 @@ render::Job Service::jobOfScene(const ServedScene& scene) const {
     if (scene.stored) {
         const auto stored = store_->get(scene.id);
         if (!stored) throw goneAway();
-        return jobOf(stored->bundle);
+        return jobOf(stored->bundle, scene.id.substr(1));  // "~" and the digest
     }
     auto xml = scenes_.source(scene);
     if (!xml) throw goneAway();
@@ -75,6 +76,12 @@ render::Job Service::jobOfScene(const ServedScene& scene) const {
     job.xml = std::move(*xml);
     job.assets = scenes_.assets(scene);
     job.identity = entityTag({job.xml, scene.version});
+    return job;
+}
+
+render::Job Service::jobToDraw(ServedScene& scene) const {
+    render::Job job = jobOfScene(scene);
+    if (!scene.stored) scene.document = scene::contentDigest(job.xml);
     return job;
 }
 
@@ -145,15 +152,18 @@ http::Response Service::getScene(const Call& call) {
 
 http::Response Service::getModels(const Call& call) {
     readParameters(call.request.query, {});
-    const ServedScene scene = sceneOf(call.parameter);
-    const render::Job job = jobOfScene(scene);
-    const std::string tag = entityTag({job.xml, scene.version, backend_.version(), "models"});
+    ServedScene scene = sceneOf(call.parameter);
+    const auto tagOf = [&] {
+        return entityTag({scene.document, scene.version, backend_.version(), "models"});
+    };
     http::Response response;
-    response.set("ETag", tag);
-    if (matchesTag(call.request.header("if-none-match"), tag)) {
+    if (const std::string tag = tagOf(); matchesTag(call.request.header("if-none-match"), tag)) {
         response.status = 304;
+        response.set("ETag", tag);
         return response;
     }
+    const render::Job job = jobToDraw(scene);
+    response.set("ETag", tagOf());
     response.contentType = "application/json";
     response.body = dump(modelsOf(backend_.inspect(job).result)) + "\n";
     return response;

@@ -26,22 +26,31 @@ std::string idOf(const std::string& path) {
 }
 
 constexpr std::size_t kMaxDigests = 20'000;
+constexpr std::size_t kMaxFound = 2'000;
+// Two edits within one tick of the clock that stamps files (10 ms at the longest) have one stamp.
+constexpr std::chrono::milliseconds kTick{50};
 
 }  // namespace
 
 // Two servers with the same files, or one after a copy, make the same tags.
 std::string SceneFolder::digestOf(const scene::Assets& files, const std::string& path) const {
     const std::string stamp = files.version(path);
+    const auto now = std::chrono::steady_clock::now();
+    auto firstSeen = now;
     {
         const std::lock_guard lock(mutex_);
-        if (const auto known = digests_.find(stamp); known != digests_.end()) return known->second;
+        if (const auto known = digests_.find(stamp); known != digests_.end()) {
+            if (known->second.isSure) return known->second.digest;
+            firstSeen = known->second.firstSeen;
+        }
     }
     const auto bytes = files.read(path);
     if (!bytes || stamp.empty()) return "";
     std::string digest = scene::contentDigest(*bytes);
     const std::lock_guard lock(mutex_);
     if (digests_.size() >= kMaxDigests) digests_.clear();
-    return digests_[stamp] = std::move(digest);
+    digests_.insert_or_assign(stamp, Digest{digest, firstSeen, now - firstSeen > kTick});
+    return digest;
 }
 
 std::string SceneFolder::versionOf(const scene::Assets& files) const {
@@ -51,7 +60,8 @@ std::string SceneFolder::versionOf(const scene::Assets& files) const {
     return scene::contentDigest(all);
 }
 
-SceneFolder::SceneFolder(std::string root) : root_(std::move(root)), files_(root_) {}
+SceneFolder::SceneFolder(std::string root)
+    : root_(std::move(root)), files_(root_), watch_(root_.empty() ? "" : files_.root()) {}
 
 std::shared_ptr<const scene::Assets> SceneFolder::assets(const ServedScene& scene) const {
     const std::string folder = folderOf(scene.path);
@@ -91,11 +101,29 @@ std::vector<ServedScene> SceneFolder::list() const {
 }
 
 std::optional<ServedScene> SceneFolder::find(const std::string& id) const {
+    const auto revision = watch_.revision();
+    if (revision) {
+        const std::lock_guard lock(mutex_);
+        const auto known = found_.find(id);
+        if (known != found_.end() && known->second.revision == *revision)
+            return known->second.scene;
+    }
+    auto scene = look(id);
+    if (revision && scene) {
+        const std::lock_guard lock(mutex_);
+        if (found_.size() >= kMaxFound) found_.clear();
+        found_.insert_or_assign(id, Found{*revision, *scene});
+    }
+    return scene;
+}
+
+std::optional<ServedScene> SceneFolder::look(const std::string& id) const {
     if (root_.empty() || !scene::isSafePath(id) || store::isStoredId(id)) return std::nullopt;
     for (const std::string& path : {id + "/" + std::string(kMainFile), id + std::string(kSuffix)}) {
         if (!files_.has(path) || idOf(path) != id) continue;
         ServedScene scene{id, path, ""};
         scene.version = scene::contentDigest(path + "\n" + versionOf(*assets(scene)));
+        scene.document = digestOf(files_, path);
         return scene;
     }
     return std::nullopt;

@@ -39,7 +39,11 @@ Service::Service(ServiceOptions options, Backend& backend, Logger& logger)
       pictures_(options_.cacheBytes),
       limiter_(options_.rate),
       scenes_(options_.scenesDir),
-      router_(routes()) {}
+      router_(routes()) {
+    if (const std::string fault = scenes_.watchFault(); !fault.empty())
+        logger_.event("scenes", "the folder cannot be watched: " + fault +
+                                    ": every request looks at its files, which costs time");
+}
 
 std::vector<Route> Service::routes() {
     using Member = http::Response (Service::*)(const Call&);

@@ -98,13 +98,13 @@ Upload fromArchive(std::string bytes, const std::string& type) {
 
 }  // namespace
 
-render::Job jobOf(const std::shared_ptr<const scene::Bundle>& bundle) {
+render::Job jobOf(const std::shared_ptr<const scene::Bundle>& bundle, std::string digest) {
     render::Job job;
     job.name = bundle->main;
     job.xml = bundle->files.at(bundle->main);
     job.assets = std::make_shared<scene::BundleAssets>(
         std::shared_ptr<const scene::BundleAssets::Files>(bundle, &bundle->files));
-    job.identity = scene::digestOf(*bundle);
+    job.identity = digest.empty() ? scene::digestOf(*bundle) : std::move(digest);
     return job;
 }
 

@@ -28,7 +28,8 @@ Upload readUpload(const http::Request& request, http::Body& body, std::size_t ma
 /// limit.body, http.multipart, http.body.
 std::vector<Part> readParts(const http::Request& request, http::Body& body, std::size_t maxBytes);
 
-/// The job of a bundle whose paths are safe, under its digest; the files are shared, not copied.
-render::Job jobOf(const std::shared_ptr<const scene::Bundle>& bundle);
+/// The job of a bundle whose paths are safe; the files are shared, not copied. `digest`: the
+/// bundle's (digestOf), where it is known.
+render::Job jobOf(const std::shared_ptr<const scene::Bundle>& bundle, std::string digest = "");
 
 }  // namespace farol::server

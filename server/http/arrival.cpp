@@ -34,6 +34,10 @@ void Arrival::readHead(std::string& in) {
     head_ = checkHead(std::string_view(in).substr(0, end + 4));
     in.erase(0, end + 4);
     headAt_ = since_ = Clock::now();
+    // Where the request is refused whatever its body, that says more than that the length is
+    // missing.
+    if (head_->refusal && head_->refusal->status == 411 && handler_->bodyLimit(head_->request) == 0)
+        head_->takeAsEmpty();
     if (head_->refusal || !head_->mayHaveBody() || !head_->hasBody()) return;
     body_.emplace(head_->contentLength, handler_->bodyLimit(head_->request));
     sayContinue_ = head_->expectsContinue && body_->state() == BodyReader::State::more;

@@ -13,13 +13,6 @@
 namespace farol::server::http {
 namespace {
 
-std::string newRequestId() {
-    static std::atomic<std::uint64_t> next{std::random_device{}() * 0x100000000ULL};
-    char text[24];
-    std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(next.fetch_add(1)));
-    return text;
-}
-
 // "Mon, 02 Jan 2006 15:04:05 GMT"; written out because strftime follows the locale.
 std::string httpDate(std::time_t now) {
     static constexpr const char* kDays[] = {"Sun", "Mon", "Tue", "Wed", "Thu", "Fri", "Sat"};
@@ -102,6 +95,13 @@ class Arrived final : public Body {
 
 }  // namespace
 
+std::string newRequestId() {
+    static std::atomic<std::uint64_t> next{std::random_device{}() * 0x100000000ULL};
+    char text[24];
+    std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(next.fetch_add(1)));
+    return text;
+}
+
 /// The library's server without its sockets: it parses a head that head.cpp has checked and writes
 /// the answer; everything between is one Handler. It never sees a body.
 class Connection::Parser final : public httplib::Server {
@@ -139,6 +139,10 @@ class Connection::Parser final : public httplib::Server {
             for (const char* name : {"Connection", "Keep-Alive", "Accept-Ranges"})
                 out.headers.erase(name);
             if (out.status == 304 || out.status == 204) out.headers.erase("Content-Length");
+            if (shared_) {
+                out.headers.erase("Content-Length");
+                out.headers.emplace("Content-Length", std::to_string(shared_->size()));
+            }
             if (!keep_) out.headers.emplace("Connection", "close");
         });
     }
@@ -149,6 +153,7 @@ class Connection::Parser final : public httplib::Server {
         Head& head = incoming.head;
         if (head.request.id.empty()) head.request.id = newRequestId();
         answered_ = false;
+        shared_.reset();
         // What of the body is still under way must not be read as the next request.
         isCut_ = incoming.bodyState != BodyReader::State::whole ||
                  (head.hasBody() && !head.mayHaveBody());
@@ -159,6 +164,9 @@ class Connection::Parser final : public httplib::Server {
                                             : "GET / HTTP/1.1\r\n\r\n");
         bool closed = false;
         const bool written = process(stream, closed);
+        // A body that others send, too, goes from where it is: the library would copy it.
+        if (shared_ && !head.isHead) link.put(*shared_);
+        shared_.reset();
         link.flush();
         incoming_ = nullptr;
         return {std::move(head.request), std::move(last_), incoming.since, keep_ && written,
@@ -184,11 +192,13 @@ class Connection::Parser final : public httplib::Server {
         out.status = response.status;
         for (const auto& [name, value] : response.headers)
             out.headers.emplace(name, headerValue(value));
+        out.headers.emplace("Date", httpDate(std::time(nullptr)));
+        const std::size_t length = response.shared ? response.shared->size() : response.body.size();
         if (!response.contentType.empty())
             out.headers.emplace("Content-Type", response.contentType);
-        out.headers.emplace("Date", httpDate(std::time(nullptr)));
         out.body = std::move(response.body);
-        response.set("Content-Length", std::to_string(out.body.size()));
+        shared_ = std::move(response.shared);
+        response.set("Content-Length", std::to_string(length));
         response.body.clear();
         last_ = std::move(response);
     }
@@ -197,6 +207,7 @@ class Connection::Parser final : public httplib::Server {
     Incoming* incoming_ = nullptr;
     const std::atomic<bool>* isClosing_ = nullptr;
     Response last_;
+    std::shared_ptr<const std::string> shared_;  ///< the body of this answer
     bool answered_ = false, isCut_ = false, keep_ = true;
 };
 

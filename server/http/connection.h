@@ -18,6 +18,9 @@ struct Answered {
     bool isCut = false;  ///< more of this one may still come: to be taken, and left
 };
 
+/// Unlike all before it in this process, and most likely in others.
+std::string newRequestId();
+
 /// Answers one request after another: one object a thread. The HTTP library stays behind this
 /// header.
 class Connection {

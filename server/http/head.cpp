@@ -127,6 +127,12 @@ bool Head::mayHaveBody() const {
            request.method == "DELETE";
 }
 
+void Head::takeAsEmpty() {
+    refusal.reset();
+    contentLength = 0;
+    cleaned.insert(cleaned.size() - 2, "Content-Length: 0\r\n");
+}
+
 Head checkHead(string_view text) {
     Head head;
     string_view rest = text;

@@ -37,6 +37,8 @@ struct Head {
     bool hasBody() const { return chunked || contentLength.value_or(0) > 0; }
     /// True if the method makes the library read a body.
     bool mayHaveBody() const;
+    /// A head that was refused for want of a length (411) is taken to announce an empty body.
+    void takeAsEmpty();
 };
 
 /// `text` ends with the blank line. Never throws; faults are in `refusal`.

@@ -25,9 +25,22 @@ constexpr int kNextMs = 2;
 constexpr int kReads = 16;
 constexpr std::size_t kLingerBytes = std::size_t{64} << 20U;
 constexpr std::string_view kContinue = "HTTP/1.1 100 Continue\r\n\r\n";
-constexpr std::string_view kFull =
-    "HTTP/1.1 503 Service Unavailable\r\nRetry-After: 1\r\nConnection: close\r\n"
-    "Content-Length: 0\r\n\r\n";
+
+// The answer to a client for whom there is no place: its request is not read.
+std::string fullAnswer(Handler& handler) {
+    Request unread;
+    unread.id = newRequestId();
+    Response full = handler.refuse(unread, 503, "busy.connections",
+                                   "There are too many connections: try again in a moment.");
+    full.set("Retry-After", "1");
+    full.set("Connection", "close");
+    full.set("Content-Type", full.contentType);
+    full.set("Content-Length", std::to_string(full.body.size()));
+    std::string bytes = "HTTP/1.1 503 Service Unavailable\r\n";
+    for (const auto& [name, value] : full.headers)
+        bytes.append(name).append(": ").append(value).append("\r\n");
+    return bytes + "\r\n" + full.body;
+}
 
 }  // namespace
 
@@ -171,7 +184,8 @@ void Listener::acceptAll() {
             const std::lock_guard lock(mutex_);
             if (clients_.size() >= static_cast<std::size_t>(options_.maxConnections)) {
                 ++closed_.full;
-                (void)::send(fd, kFull.data(), kFull.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+                const std::string full = fullAnswer(handler_);
+                (void)::send(fd, full.data(), full.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
                 ::close(fd);
                 continue;
             }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -37,6 +38,7 @@ struct Response {
     int status = 200;
     Fields headers;
     std::string body;
+    std::shared_ptr<const std::string> shared = {};  ///< the body instead, where others send it too
     std::string contentType;
     Fields logged;  ///< more for this request's line in the log
 

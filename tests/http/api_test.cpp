@@ -118,6 +118,8 @@ TEST_CASE("every request has its status and its code") {
         {"two scenes", rendering("", kMultipartType, twoScenes), 400, "http.multipart", ""},
         {"no scene part", rendering("", kMultipartType, multipart({{"x", "a.png", "p", ""}})), 400,
          "bundle.no-scene", "scene"},
+        {"a mesh alone", rendering("", kMultipartType, multipart({{"x", "a.obj", "v", ""}})), 400,
+         "bundle.no-scene", "scene"},
         {"two documents, none called scene",
          rendering("", kMultipartType,
                    multipart({{"x", "a.xml", "p", ""}, {"y", "b.xml", "p", ""}})),
@@ -223,6 +225,20 @@ TEST_CASE("the methods of a path are told") {
     CHECK(post(server.port(), "/livez", "x").header("allow") == "GET, HEAD, OPTIONS");
     CHECK(ask(server.port(), {"OPTIONS", "/livez", {}, ""}).header("allow") ==
           "GET, HEAD, OPTIONS");
+    // Also without a body, and so without a length: what is wrong is the method.
+    for (const char* method : {"PUT", "PATCH", "POST", "DELETE"}) {
+        INFO(method);
+        const auto bodyless = [&](const std::string& path) {
+            RawClient client(server.port());
+            client.send(std::string(method) + " " + path + " HTTP/1.1\r\nHost: x\r\n\r\n");
+            return client.read();
+        };
+        const Answer known = bodyless("/livez");
+        CHECK(known.status == 405);
+        CHECK(known.code() == "http.method");
+        CHECK(known.header("allow") == "GET, HEAD, OPTIONS");
+        CHECK(bodyless("/nothing").status == 404);
+    }
 }
 
 TEST_CASE("picture options reach the job: preset, then options part, then query") {

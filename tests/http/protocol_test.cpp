@@ -285,6 +285,10 @@ TEST_CASE("connections beyond the bound are told so") {
     const Answer answer = extra.read();
     CHECK(answer.status == 503);
     CHECK(answer.header("retry-after") == "1");
+    CHECK(answer.header("content-type") == "application/problem+json");
+    CHECK(answer.code() == "busy.connections");
+    CHECK_FALSE(answer.header("x-request-id").empty());
+    CHECK(answer.json().value("requestId", "") == answer.header("x-request-id"));
     held.clear();
     Answer later;
     for (int i = 0; i < 100 && later.status != 200; ++i) {

@@ -70,6 +70,19 @@ TEST_CASE("which file is the scene") {
     CHECK(mainOfFiles({{"UPPER.XML", "a"}, {"t.png", "b"}}) == "UPPER.XML");
     CHECK(codeOf(pack(Packing::tar, {{"t.png", "b"}})) == "bundle.no-scene");
     try {
+        readArchive(pack(Packing::tar, {{"hare.OBJ", "v 0 0 0"}, {"t.png", "b"}}));
+        FAIL("a mesh was taken for a scene");
+    } catch (const Error& error) {
+        CHECK(error.code() == "bundle.no-scene");
+        // What to do about it is a scene that can be read.
+        const std::string message = error.what();
+        const std::size_t start = message.find("<world>");
+        const std::size_t end = message.find("</world>");
+        REQUIRE(end != std::string::npos);
+        CHECK(message.substr(start, end + 8 - start) ==
+              "<world><group><models><model file=\"hare.OBJ\"/></models></group></world>");
+    }
+    try {
         readArchive(pack(Packing::tar, {{"a.xml", "a"}, {"b.xml", "b"}}));
         FAIL("two scenes were taken");
     } catch (const Error& error) {

@@ -78,7 +78,7 @@ TEST_CASE("pictures are kept within their bytes, the least used go first") {
     for (const char* tag : {"d", "e"}) cache.put(tag, picture(2'000, 'x'));
     CHECK(cache.find("a"));
     CHECK_FALSE(cache.find("b"));
-    CHECK(cache.find("e")->body == std::string(2'000, 'x'));
+    CHECK(*cache.find("e")->shared == std::string(2'000, 'x'));
     cache.put("big", picture(9'000, 'y'));  // it would sweep out all others
     CHECK_FALSE(cache.find("big"));
     CHECK(cache.find("a"));

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <mutex>
+#include <optional>
+#include <string>
+
+namespace farol::server {
+
+/// Tells whether anything below a folder may have changed, without looking at its files (inotify).
+/// The kernel notes a change before the call that makes it returns, so one made before revision()
+/// is called is seen. What leaves no note (another machine's writes to a shared disk, a mapped
+/// file, a hard link elsewhere) is covered by a new revision each second.
+class FolderWatch {
+  public:
+    /// `root`: absolute and without links; empty: nothing is watched.
+    explicit FolderWatch(std::string root);
+    ~FolderWatch();
+    FolderWatch(const FolderWatch&) = delete;
+    FolderWatch& operator=(const FolderWatch&) = delete;
+
+    /// The same number as before only if nothing is known to have changed since. Nothing where the
+    /// folder cannot be watched as a whole: then every request has to look.
+    std::optional<std::uint64_t> revision();
+    /// Why the folder is not watched; empty while it is.
+    std::string fault() const;
+
+    static constexpr std::size_t kMostFolders = 4096;
+    static constexpr std::chrono::seconds kLongest{1};
+
+  private:
+    void watchAll();
+    bool hasNotes() const;
+    bool takeNotes();
+    void giveUp(const std::string& why);
+
+    const std::string root_;
+    mutable std::mutex mutex_;
+    int fd_ = -1;
+    std::string fault_;
+    std::atomic<bool> isWatched_{false};
+    std::atomic<std::uint64_t> revision_{1};
+    std::atomic<std::chrono::steady_clock::time_point> renewed_;
+};
+
+}  // namespace farol::server

@@ -1,4 +1,6 @@
+#include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 
 #include "scene/scene_builder.h"
 #include "scene/words.h"
@@ -162,13 +164,18 @@ std::optional<Transform> SceneBuilder::rotate(pugi::xml_node element) {
         return Spin{*seconds, axis};
     }
     if (axis == glm::dvec3(0.0)) return std::nullopt;  // no turn about no axis
+    tellRadians(given, "angle", "rotate");
     return Rotate{given.number("angle", 0.0), axis};
 }
 
 std::optional<Transform> SceneBuilder::scaling(pugi::xml_node element) {
     const Values given = values(element, "scale", isOrdered() ? Unknown::error : Unknown::warning);
     if (given.damaged) return std::nullopt;
-    return Scale{given.vector("x", "y", "z", glm::dvec3(1.0))};
+    const glm::dvec3 factors = given.vector("x", "y", "z", glm::dvec3(1.0));
+    if (int{factors.x == 0.0} + int{factors.y == 0.0} + int{factors.z == 0.0} > 1)
+        findings().warn("scene.invisible", at(element),
+                        "<scale> by 0 leaves nothing of its group to see; 1 keeps a size");
+    return Scale{factors};
 }
 
 void SceneBuilder::models(pugi::xml_node element, Group& group, GroupState& state) {
@@ -185,6 +192,22 @@ void SceneBuilder::models(pugi::xml_node element, Group& group, GroupState& stat
     const ElementSpec& spec = elementSpec("models");
     values(element, spec);
     children(element, spec, [&](std::string_view, pugi::xml_node child) { model(child, group); });
+}
+
+/// 1.57 and 3.14159 are right angles of somebody who thinks in radians: what is a multiple of 15
+/// degrees to a tenth of one, and no whole number of degrees, up to a full turn.
+void SceneBuilder::tellRadians(const Values& given, std::string_view angle,
+                               std::string_view element) {
+    constexpr double kStep = 15.0, kNear = 0.1;
+    const double value = given.number(angle, 0.0);
+    const double steps = std::round(glm::degrees(value) / kStep);
+    if (value == std::round(value) || steps == 0.0 || std::abs(steps) > 360.0 / kStep ||
+        std::abs(glm::degrees(value) - steps * kStep) > kNear)
+        return;
+    findings().warn("scene.radians", given.where(angle),
+                    quoted(angle) + " of <" + std::string(element) +
+                        "> is in degrees and looks like radians; was " +
+                        quoted(formatNumber(steps * kStep)) + " meant?");
 }
 
 void SceneBuilder::tellSwapped(const Values& given, std::string_view least, std::string_view most) {

@@ -62,6 +62,7 @@ void SceneBuilder::light(pugi::xml_node element, Group& group) {
         findings().warn("scene.missing-attribute", at(element),
                         std::string("<light> has no \"type\"; it is taken as a ") +
                             typeName(made.type) + " light");
+    tellRadians(given, "cutoff", "light");
     made.cutoffDeg = given.number("cutoff", 180.0);
     made.exponent = given.number("exponent", 0.0);
     colorAttributes(given, "diff", made.diffuse);

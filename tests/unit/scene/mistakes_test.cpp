@@ -353,6 +353,38 @@ scene.unknown-element 16:1 <p> is unknown in <translate> and is ignored
 )",
          false, R"(scene.empty-value 4:25 "y" of <position> is empty and is taken as left out
 )"},
+        {"fov in radians", 7, 1,
+         R"(        <projection fov="1.0472" near="1" far="1000" />
+)",
+         false,
+         R"(scene.radians 7:26 "fov" of <projection> is in degrees and looks like radians; was "60" meant?
+)"},
+        {"angle in radians", 15, 1,
+         R"(            <rotate angle="-1.57" x="0" y="1" z="0" />
+)",
+         false,
+         R"(scene.radians 15:28 "angle" of <rotate> is in degrees and looks like radians; was "-90" meant?
+)"},
+        {"cutoff in radians", 10, 1,
+         R"(        <light type="spot" posX="0" posY="10" posZ="0" dirX="0" dirY="-1" dirZ="0" cutoff="0.5236" />
+)",
+         false,
+         R"(scene.radians 10:92 "cutoff" of <light> is in degrees and looks like radians; was "30" meant?
+)"},
+        {"small angles in degrees", 15, 1,
+         R"(            <rotate angle="1.5" x="0" y="1" z="0" />
+)",
+         false, ""},
+        {"no size", 15, 1,
+         R"(            <scale x="0" y="0" z="0" />
+)",
+         false,
+         R"(scene.invisible 15:13 <scale> by 0 leaves nothing of its group to see; 1 keeps a size
+)"},
+        {"flattened to a shadow", 15, 1,
+         R"(            <scale x="1" y="0" z="1" />
+)",
+         false, ""},
     };
     return all;
 }

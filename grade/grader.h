@@ -50,6 +50,7 @@ struct Grade {
     std::vector<CriterionGrade> criteria;
     std::vector<CostedFinding> findings;
     Diagnostics diagnostics;
+    std::vector<std::string> excerpts;  ///< the lines at each diagnostic's place, or ""
     std::vector<ViewGrade> views;
     GradeTimes times;
 };

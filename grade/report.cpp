@@ -1,9 +1,12 @@
 #include "grade/report.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <span>
+#include <utility>
+#include <vector>
 
 #include "grade/base64.h"
 #include "scene/embedded.h"
@@ -94,6 +97,17 @@ std::string forCsv(std::string field) {
     return out + "\"";
 }
 
+/// " (line 3)", " (lines 3, 5)", " (lines 3, 5, 7 and 4 more)"; "" where there is none.
+std::string linesText(const std::vector<int>& lines) {
+    constexpr std::size_t kListed = 6;
+    if (lines.empty()) return "";
+    std::string out = lines.size() > 1 ? " (lines " : " (line ";
+    for (std::size_t i = 0; i < std::min(kListed, lines.size()); ++i)
+        out += (i ? ", " : "") + std::to_string(lines[i]);
+    if (lines.size() > kListed) out += " and " + std::to_string(lines.size() - kListed) + " more";
+    return out + ")";
+}
+
 /// What a student reads: each loss, then each finding.
 std::string feedback(const SubmissionResult& one) {
     std::string out;
@@ -107,12 +121,18 @@ std::string feedback(const SubmissionResult& one) {
         const ordered_json grade = gradeOf(task);
         for (const auto& finding : grade.value("findings", ordered_json::array()))
             if (finding.value("points", 0.0) > 0.0) line(prefix + finding.value("message", ""));
-        for (const auto& diagnostic : grade.value("diagnostics", ordered_json::array()))
-            if (diagnostic.value("severity", "") == "error" || grade.value("penalty", 0.0) > 0.0)
-                line(prefix + diagnostic.value("message", "") +
-                     (diagnostic.contains("line")
-                          ? " (line " + std::to_string(diagnostic.value("line", 0)) + ")"
-                          : ""));
+        // What is wrong in many places is told once, with its lines.
+        std::vector<std::pair<std::string, std::vector<int>>> told;
+        for (const auto& diagnostic : grade.value("diagnostics", ordered_json::array())) {
+            if (diagnostic.value("severity", "") != "error" && !(grade.value("penalty", 0.0) > 0.0))
+                continue;
+            const std::string message = diagnostic.value("message", "");
+            auto found = std::find_if(told.begin(), told.end(),
+                                      [&](const auto& entry) { return entry.first == message; });
+            if (found == told.end()) found = told.insert(told.end(), {message, {}});
+            if (diagnostic.contains("line")) found->second.push_back(diagnostic.value("line", 0));
+        }
+        for (const auto& [message, lines] : told) line(prefix + message + linesText(lines));
         for (const auto& criterion : grade.value("criteria", ordered_json::array()))
             if (criterion.contains("measured") &&
                 criterion.value("points", 0.0) < criterion.value("most", 0.0) &&
@@ -140,11 +160,14 @@ void writeJson(std::ostream& out, const ClassResult& all) {
 }
 
 void writeCsv(std::ostream& out, const ClassResult& all) {
-    out << "Identifier,Full name,Grade,Maximum Grade,Passed,Submission,Feedback comments\r\n";
+    // Moodle takes no worksheet without a column of this name. It is left empty: a report tells no
+    // times, and with none Moodle replaces a grade that it has only where the teacher allows it.
+    out << "Identifier,Full name,Grade,Maximum Grade,Last modified (grade),Passed,Submission,"
+           "Feedback comments\r\n";
     for (std::size_t i = 0; i < all.count; ++i) {
         const SubmissionResult one = all.at(i);
         out << forCsv(one.number.empty() ? "" : "Participant " + one.number) << ","
-            << forCsv(one.name) << "," << number(one.points) << "," << number(one.most) << ","
+            << forCsv(one.name) << "," << number(one.points) << "," << number(one.most) << ",,"
             << (one.passed ? "yes" : "no") << "," << forCsv(one.id) << "," << forCsv(feedback(one))
             << "\r\n";
     }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "scene/words.h"
 
@@ -169,10 +170,15 @@ ordered_json placeOf(const Location& where) {
 
 void score(Grade& grade, const Findings& findings, const Rubric& rubric, bool scenes,
            const std::string& xml, const std::string& name) {
-    for (const Finding& one : findings) {
-        const bool inDocument = one.where.line > 0 && one.where.file == name;
-        grade.findings.push_back({one, 0, inDocument ? excerptOf(xml, one.where.line) : ""});
-    }
+    const auto excerptAt = [&](const Location& where) {
+        return where.line > 0 && where.file == name ? excerptOf(xml, where.line) : "";
+    };
+    for (const Finding& one : findings) grade.findings.push_back({one, 0, excerptAt(one.where)});
+    std::set<std::string> shown;  // of what is wrong in many places, the first
+    for (const Diagnostic& one : grade.diagnostics)
+        grade.excerpts.push_back(one.severity != Severity::info && shown.insert(one.message).second
+                                     ? excerptAt(one.where)
+                                     : "");
     double weights = 0.0;
     const auto applies = [&](const Criterion& one) {
         return one.weight > 0.0 && (scenes || one.measure <= Measure::ssim);
@@ -223,26 +229,36 @@ std::string toJson(const Grade& grade) {
         out["findings"].push_back(std::move(entry));
     }
     out["diagnostics"] = ordered_json::array();
-    for (const Diagnostic& one : grade.diagnostics) {
+    for (std::size_t i = 0; i < grade.diagnostics.size(); ++i) {
+        const Diagnostic& one = grade.diagnostics[i];
         if (one.severity == Severity::info) continue;
         ordered_json entry{{"code", one.code}, {"severity", wordOf(one.severity)}};
         entry.update(placeOf(one.where));
         entry["message"] = one.message;
+        if (i < grade.excerpts.size() && !grade.excerpts[i].empty())
+            entry["excerpt"] = grade.excerpts[i];
         out["diagnostics"].push_back(std::move(entry));
     }
+    // What the rubric leaves out was not measured: a 0 would say that nothing differs.
+    std::set<Measure> measured;
+    for (const CriterionGrade& one : grade.criteria) measured.insert(one.measure);
     out["views"] = ordered_json::array();
-    for (const ViewGrade& one : grade.views)
-        out["views"].push_back(
-            {{"name", one.name},
-             {"time", one.timeS},
-             {"width", one.width},
-             {"height", one.height},
-             {"difference", sixDigits(one.difference)},
-             {"flip", {{"mean", sixDigits(one.flipMean)}, {"p95", sixDigits(one.flipP95)}}},
-             {"ssim", sixDigits(one.ssim)},
-             {"coverage", sixDigits(one.coverage)},
-             {"depth", sixDigits(one.depth)},
-             {"normals", sixDigits(one.normals)}});
+    for (const ViewGrade& one : grade.views) {
+        ordered_json view{{"name", one.name},
+                          {"time", one.timeS},
+                          {"width", one.width},
+                          {"height", one.height},
+                          {"difference", sixDigits(one.difference)}};
+        const auto put = [&](Measure measure, ordered_json value) {
+            if (measured.count(measure) != 0) view[nameOf(measure)] = std::move(value);
+        };
+        put(Measure::flip, {{"mean", sixDigits(one.flipMean)}, {"p95", sixDigits(one.flipP95)}});
+        put(Measure::ssim, sixDigits(one.ssim));
+        put(Measure::coverage, sixDigits(one.coverage));
+        put(Measure::depth, sixDigits(one.depth));
+        put(Measure::normals, sixDigits(one.normals));
+        out["views"].push_back(std::move(view));
+    }
     return out.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
 }
 

@@ -1,6 +1,7 @@
 #include "grade/report.h"
 
 #include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "grade/subject.h"
@@ -44,9 +45,33 @@ std::string text(Write write, const ClassResult& all) {
 
 TEST_CASE("the grade book's table has Moodle's columns, and no formula of a student's") {
     const std::string csv = text(writeCsv, classOf({one("=HYPERLINK(1)", "@light \\\"2\\\"")}));
-    CHECK_THAT(csv, Catch::StartsWith("Identifier,Full name,Grade,Maximum Grade,"));
-    CHECK_THAT(csv, Catch::Contains("\"Participant 17\",\"'=HYPERLINK(1)\",40.00,100.00,no,"));
+    // Without "Last modified (grade)" Moodle refuses the file.
+    CHECK_THAT(csv,
+               Catch::StartsWith("Identifier,Full name,Grade,Maximum Grade,"
+                                 "Last modified (grade),Passed,Submission,Feedback comments\r\n"));
+    CHECK_THAT(csv, Catch::Contains("\"Participant 17\",\"'=HYPERLINK(1)\",40.00,100.00,,no,"));
     CHECK_THAT(csv, Catch::Contains("\"'@light \"\"2\"\"\""));
+}
+
+TEST_CASE("feedback tells once what is wrong in many places, with its lines") {
+    SubmissionResult bare = one("Ana", "x");
+    nlohmann::json grade = {{"points", 0},
+                            {"most", 100},
+                            {"passed", false},
+                            {"refused", true},
+                            {"penalty", 0},
+                            {"criteria", nlohmann::json::array()},
+                            {"views", nlohmann::json::array()},
+                            {"findings", nlohmann::json::array()}};
+    for (int line = 1; line <= 8; ++line)
+        grade["diagnostics"].push_back(
+            {{"severity", "error"}, {"message", "no texture"}, {"line", line}});
+    grade["diagnostics"].push_back({{"severity", "error"}, {"message", "no mesh"}, {"line", 9}});
+    grade["diagnostics"].push_back({{"severity", "error"}, {"message", "no end"}});
+    bare.tasks[0].json = grade.dump();
+    const std::string csv = text(writeCsv, classOf({bare}));
+    CHECK_THAT(csv, Catch::Contains("\"no texture (lines 1, 2, 3, 4, 5, 6 and 2 more)\n"
+                                    "no mesh (line 9)\nno end\""));
 }
 
 TEST_CASE("the page holds the submissions' words as data only") {

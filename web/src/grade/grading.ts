@@ -13,7 +13,7 @@ export interface Grade {
   criteria: { measure: string; points: number; most: number; measured?: number; reason: string }[];
   findings: { code: string; message: string; points: number; file?: string; line?: number; column?: number; excerpt?: string }[];
   diagnostics: Finding[];
-  views: { name: string; time: number; width: number; height: number; picture?: string; heat?: string; difference: number; ssim: number; flip: { mean: number } }[];
+  views: { name: string; time: number; width: number; height: number; picture?: string; heat?: string; difference: number; ssim?: number; flip?: { mean: number } }[];
 }
 
 export interface Row {

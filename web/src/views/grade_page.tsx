@@ -59,12 +59,10 @@ function Drop({ kind, title, text, take, children }: {
 
 const points = (value: number): string => String(Number(value.toFixed(1)));
 
-/** What was measured: measures that the rubric leaves out are not. */
-function shares(grade: Grade, view: Grade['views'][number]): string {
-  const measured = (name: string): boolean => grade.criteria.some((one) => one.measure === name);
+/** What was measured: measures that the rubric leaves out are not there. */
+function shares({ difference, flip, ssim }: Grade['views'][number]): string {
   return [
-    `${(100 * view.difference).toFixed(1)} % differs`,
-    measured('flip') ? `FLIP ${view.flip.mean.toFixed(3)}` : '', measured('ssim') ? `SSIM ${view.ssim.toFixed(3)}` : '',
+    `${(100 * difference).toFixed(1)} % differs`, flip && `FLIP ${flip.mean.toFixed(3)}`, ssim !== undefined && `SSIM ${ssim.toFixed(3)}`,
   ].filter(Boolean).join(', ');
 }
 
@@ -99,7 +97,7 @@ function Details({ grade }: { grade: Grade }) {
               {view.picture && <img src={view.picture} alt={`The submission, ${view.name}`} loading="lazy" />}
               {view.heat && <img src={view.heat} alt={`Where it differs, ${view.name}`} loading="lazy" />}
             </div>
-            <figcaption>{view.name}{view.time ? `, ${view.time} s` : ''}: {shares(grade, view)}</figcaption>
+            <figcaption>{view.name}{view.time ? `, ${view.time} s` : ''}: {shares(view)}</figcaption>
           </figure>
         ))}
       </div>

@@ -174,6 +174,9 @@ void SceneBuilder::camera(pugi::xml_node element) {
     if (!hasPosition)
         findings().warn("scene.missing-element", at(element),
                         "<camera> has no <position>; 0 0 5 is taken");
+    if (!seen.contains("lookAt"))
+        findings().info("scene.missing-element", at(element),
+                        "<camera> has no <lookAt>; it looks at 0 0 0");
     scene_.camera = made;
     if (!damaged) checkCamera(made, up, range);
 }

@@ -142,6 +142,7 @@ scene.unknown-attribute 15:21 <rotate> has no attribute "angel"; did you mean "a
 )",
          false,
          R"(scene.duplicate-element 9:5 a second <camera> in one <world>; what it says replaces the first
+scene.missing-element 9:5 <camera> has no <lookAt>; it looks at 0 0 0
 )"},
         {"dir light none", 10, 1,
          R"(        <light type="directional" />
@@ -375,6 +376,9 @@ scene.unknown-element 16:1 <p> is unknown in <translate> and is ignored
          R"(            <rotate angle="1.5" x="0" y="1" z="0" />
 )",
          false, ""},
+        {"no lookAt", 5, 1, "", false,
+         R"(scene.missing-element 3:5 <camera> has no <lookAt>; it looks at 0 0 0
+)"},
         {"no size", 15, 1,
          R"(            <scale x="0" y="0" z="0" />
 )",

@@ -64,6 +64,38 @@ class Load:
                 time.sleep(0.05)
 
 
+class Progress:
+    """How far it is and how long it takes yet, on stderr: redrawn on a terminal, else a line every
+    ten seconds."""
+
+    def __init__(self, load, name, before, faults, seconds):
+        self.load, self.name, self.before, self.faults = load, name, before, faults
+        self.seconds, self.start, self.over = seconds, time.monotonic(), threading.Event()
+        self.terminal = sys.stderr.isatty()
+        self.thread = threading.Thread(target=self.run)
+
+    def __enter__(self):
+        self.thread.start()
+        return self
+
+    def __exit__(self, *_):
+        self.over.set()
+        self.thread.join()
+        if self.terminal:
+            print("\r\x1b[K", end="", file=sys.stderr, flush=True)
+
+    def run(self):
+        while not self.over.wait(0.5 if self.terminal else 10):
+            share = min(1.0, (time.monotonic() - self.start) / self.seconds)
+            left = self.seconds * (self.faults - self.before - share)
+            counts = dict(self.load.statuses)
+            text = (f"{(self.before + share) / self.faults:4.0%}  {self.name}: {counts.get(200, 0)} "
+                    f"pictures, {counts.get(503, 0)} refusals, {len(self.load.wrong)} wrong; "
+                    f"{left:.0f} s left")
+            print(("\r\x1b[K" + text) if self.terminal else text, file=sys.stderr,
+                  end="" if self.terminal else "\n", flush=True)
+
+
 def kill_workers(daemon, seconds, rng):
     end, killed = time.monotonic() + seconds, 0
     while time.monotonic() < end:
@@ -131,14 +163,16 @@ def bad_clients(daemon, seconds, rng):
 def main():
     binary, seconds = sys.argv[1], float(sys.argv[2]) if len(sys.argv) > 2 else 60
     rng, bad = random.Random(1), False
-    for fault in (kill_workers, stop_workers, bad_clients):
+    faults = (kill_workers, stop_workers, bad_clients)
+    for number, fault in enumerate(faults):
         with Daemon(binary, "--workers", 2, "--deadline", DEADLINE_S, "--wait", WAIT_S,
                     "--quarantine", 1, "--cache-bytes", 0) as daemon:
             ids = scene_ids(daemon)[:6]
             daemon.some_scene = ids[0]
             paths = [f"/v1/scenes/{one}/image?width=128&height=128&azimuth={angle}&aa=1"
                      for one in ids for angle in (0, 90)]
-            with Load(daemon, paths) as load:
+            with Load(daemon, paths) as load, \
+                    Progress(load, fault.__name__, number, len(faults), seconds):
                 said = fault(daemon, seconds, rng)
             slowest = DEADLINE_S + WAIT_S + SLACK_S
             time.sleep(1)

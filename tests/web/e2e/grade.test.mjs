@@ -37,15 +37,16 @@ test('the grade page sends each submission, and shows points, findings and pictu
   const go = view.page.getByRole('button', { name: 'Grade', exact: true });
   assert.ok(await go.isDisabled());
   await choose(view, 'Reference: choose files', [file('reference.xml', scene(40))]);
-  await choose(view, 'Submissions: choose files', [file('ana.xml', scene(40)), file('bento.xml', scene(-40)), file('carla.xml', '<world><group></world>')]);
+  await choose(view, 'Submissions: choose files', [file('Ana Sá_7_assignsubmission_file_a.xml', scene(40)), file('bento.xml', scene(-40)), file('carla.xml', '<world><group></world>')]);
   await choose(view, 'Submissions: choose files', [file('rubric.json', '{"title": "Of twenty", "points": 20}')]);
   await view.page.getByText('3 submissions').waitFor();
   await go.click();
   await view.page.getByText('3 graded.').waitFor({ timeout: 60000 });
   assert.deepEqual(sent, [200, 200, 200]);
   const row = (name) => view.page.locator('.rows > li', { hasText: name });
-  assert.match(await row('ana').locator('.score').innerText(), /^20\s*of 20$/);
+  assert.match(await row('Ana Sá').locator('.score').innerText(), /^20\s*of 20$/);
   assert.match(await row('carla').locator('.score').innerText(), /^0\s*of 20$/);
+  assert.match(await row('carla').locator('.what').innerText(), /^It could not be read\. .*<group>/);
   const lost = Number.parseFloat(await row('bento').locator('.score strong').innerText());
   assert.ok(lost > 0 && lost < 20, `${lost} points`);
   await row('bento').getByRole('button').first().click();
@@ -58,8 +59,13 @@ test('the grade page sends each submission, and shows points, findings and pictu
   const [download] = await Promise.all([view.page.waitForEvent('download'), view.page.getByRole('button', { name: 'CSV' }).click()]);
   const table = readFileSync(await download.path(), 'utf8').trim().split('\r\n');
   assert.equal(table.length, 4);
-  assert.match(table.find((line) => line.startsWith('ana')), /,20,20,passed,/);
-  assert.match(table.find((line) => line.startsWith('bento')), /sign/);
+  assert.equal(table[0], 'Identifier,Full name,Grade,Maximum Grade,Last modified (grade),Passed,Submission,Feedback comments');
+  assert.equal(table.find((line) => line.includes('Ana')), 'Participant 7,Ana Sá,20.00,20.00,,yes,Ana Sá_7_assignsubmission_file_a.xml,');
+  assert.match(table.find((line) => line.includes('bento')), /sign/);
+  // On a phone nothing of the details is cut off.
+  await view.page.setViewportSize({ width: 360, height: 740 });
+  assert.deepEqual(await view.page.locator('.details, .details .criteria, .details .views').evaluateAll((all) =>
+    all.filter((one) => one.scrollWidth > one.clientWidth || one.getBoundingClientRect().right > 360).map((one) => one.className)), []);
   await view.close();
 });
 

@@ -31,6 +31,11 @@ test('what is dropped becomes submissions', () => {
 
 test('the table of grades is safe to open', () => {
   const subject = { name: '=cmd', file: new Blob(), fileName: 'x' };
-  const grade = { points: 7.5, most: 10, passed: true, findings: [{ code: 'c', message: 'a "b", c', points: 1 }] } as never;
-  assert.equal(csvOf([{ subject, state: 'done', grade }]), 'submission,points,most,result,findings\r\n\'=cmd,7.5,10,passed,"a ""b"", c"\r\n');
+  const grade = { points: 7.5, most: 10, passed: true, findings: [{ code: 'c', message: 'a "b", c', points: 1 }], diagnostics: [] } as never;
+  const moodle = { ...subject, name: 'Ana Sá_17_assignsubmission_file_a.xml' };
+  assert.deepEqual(csvOf([{ subject, state: 'done', grade }, { subject: moodle, state: 'failed', problem: 'gone' }]).split('\r\n'), [
+    'Identifier,Full name,Grade,Maximum Grade,Last modified (grade),Passed,Submission,Feedback comments',
+    ',\'=cmd,7.50,10.00,,yes,\'=cmd,"a ""b"", c"',
+    'Participant 17,Ana Sá,,,,,Ana Sá_17_assignsubmission_file_a.xml,gone', '',
+  ]);
 });

@@ -1,7 +1,7 @@
 // Grades of many submissions against one reference, a few at a time.
 import { signal } from '@preact/signals';
 import { findingsOf, patient, request, sentence, type Finding } from '../api.ts';
-import type { Subject } from './submissions.ts';
+import { studentOf, type Subject } from './submissions.ts';
 
 export interface Grade {
   points: number;
@@ -79,10 +79,17 @@ const cell = (text: string): string => {
   return /[",\n]/.test(safe) ? `"${safe.replaceAll('"', '""')}"` : safe;
 };
 
+/** The columns of the reports of `farol grade`: Moodle's, which wants even the empty one. */
 export function csvOf(rows: readonly Row[]): string {
-  const lines = rows.map(({ subject, grade, problem }) => [
-    subject.name, grade ? String(grade.points) : '', grade ? String(grade.most) : '', grade ? (grade.passed ? 'passed' : 'failed') : 'not graded',
-    grade ? grade.findings.map((one) => one.message).join('; ') : (problem ?? ''),
-  ].map((text, column) => (column === 1 || column === 2 ? text : cell(text))).join(','));
-  return ['submission,points,most,result,findings', ...lines].join('\r\n').concat('\r\n');
+  const points = (value: number | undefined): string => value?.toFixed(2) ?? '';
+  const lines = rows.map(({ subject, grade, problem }) => {
+    const student = studentOf(subject.name);
+    const feedback = grade ? [...grade.findings.filter((one) => one.points > 0), ...grade.diagnostics.filter((one) => one.severity === 'error')]
+      .map((one) => one.message).join('; ') : (problem ?? '');
+    return [
+      cell(student.identifier), cell(student.name), points(grade?.points), points(grade?.most), '', grade ? (grade.passed ? 'yes' : 'no') : '',
+      cell(subject.name), cell(feedback),
+    ].join(',');
+  });
+  return ['Identifier,Full name,Grade,Maximum Grade,Last modified (grade),Passed,Submission,Feedback comments', ...lines].join('\r\n').concat('\r\n');
 }

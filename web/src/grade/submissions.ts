@@ -19,6 +19,12 @@ function subjectOf(name: string, files: readonly NamedFile[]): Subject {
   return { name, file: tarOf(files.map(({ file }, i) => ({ path: paths[i] as string, file }))), fileName: `${name}.tar` };
 }
 
+/** Who handed it in, by Moodle's names of folders and files: `Name_id_assignsubmission_file_`. */
+export function studentOf(name: string): { name: string; identifier: string } {
+  const found = /^(.{1,200})_([0-9]{1,18})_assignsubmission_[a-z]+_/.exec(name);
+  return found ? { name: found[1] as string, identifier: `Participant ${found[2]}` } : { name, identifier: '' };
+}
+
 /**
  * Every file at the top that can stand alone is a subject, and so is every folder; a scene that lies
  * among its textures is one with all of them.

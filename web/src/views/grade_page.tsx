@@ -2,12 +2,13 @@
 import { signal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 import { csvOf, Grading, type Grade, type Row } from '../grade/grading.ts';
-import { subjectsOf } from '../grade/submissions.ts';
+import { studentOf, subjectsOf } from '../grade/submissions.ts';
 import type { NamedFile } from '../scene/bundle.ts';
 import { chooseFiles, filesOf } from '../files.ts';
 import { Icon } from './icons.tsx';
 import { saveBlob } from './save.ts';
 import { Findings, say } from './ui.tsx';
+import { sentence } from '../api.ts';
 
 const grading = new Grading();
 const open = signal<string | null>(null);
@@ -81,15 +82,6 @@ function Details({ grade }: { grade: Grade }) {
         </ol>
       )}
       {grade.findings.length === 0 && <p class="note">Nothing was found that differs.</p>}
-      <table class="criteria">
-        <thead><tr><th scope="col">Criterion</th><th scope="col">Points</th><th scope="col">Why</th></tr></thead>
-        <tbody>
-          {grade.criteria.map((one) => (
-            <tr key={one.measure}><th scope="row">{one.measure}</th><td>{points(one.points)} / {points(one.most)}</td><td>{one.reason}</td></tr>
-          ))}
-        </tbody>
-      </table>
-      <Findings findings={grade.diagnostics} />
       <div class="views">
         {grade.views.filter((view) => view.picture ?? view.heat).map((view) => (
           <figure key={`${view.name}${view.time}`}>
@@ -101,21 +93,33 @@ function Details({ grade }: { grade: Grade }) {
           </figure>
         ))}
       </div>
+      <table class="criteria">
+        <thead><tr><th scope="col">Criterion</th><th scope="col">Points</th><th scope="col">Why</th></tr></thead>
+        <tbody>
+          {grade.criteria.map((one) => (
+            <tr key={one.measure}><th scope="row">{one.measure}</th><td>{points(one.points)} / {points(one.most)}</td><td>{one.reason}</td></tr>
+          ))}
+        </tbody>
+      </table>
+      <Findings findings={grade.diagnostics} />
     </div>
   );
 }
 
 function RowView({ row }: { row: Row }) {
   const { subject, state, grade, problem } = row, on = open.value === subject.name;
-  const first = grade?.refused ? 'The submission could not be read.' : (grade?.findings[0]?.message ?? (grade ? 'As the reference.' : ''));
+  const student = studentOf(subject.name), fault = grade?.diagnostics.find((one) => one.severity === 'error');
+  const lost = grade?.criteria.filter((one) => one.points < one.most).sort((a, b) => b.most - b.points - a.most + a.points)[0];
+  const first = grade?.refused ? `It could not be read. ${fault ? sentence(fault) : ''}`
+    : (grade?.findings.find((one) => one.points > 0)?.message ?? lost?.reason ?? (grade ? 'As the reference.' : ''));
   return (
     <li class={`row ${grade ? (grade.passed ? 'passed' : 'missed') : state}`}>
       <button type="button" aria-expanded={on} disabled={!grade} onClick={() => (open.value = on ? null : subject.name)}>
-        <b>{subject.name}</b>
+        <b>{student.name}{student.identifier && <span class="who">{student.identifier}</span>}</b>
         <span class="what">{state === 'grading' ? 'Grading…' : state === 'failed' ? problem : state === 'waiting' ? 'Waiting' : first}</span>
         {grade && (
           <span class="score">
-            <meter min={0} max={grade.most} value={grade.points} aria-label={`Points of ${subject.name}`} />
+            <meter min={0} max={grade.most} value={grade.points} aria-label={`Points of ${student.name}`} />
             <strong>{points(grade.points)}</strong> of {points(grade.most)}
           </span>
         )}

@@ -48,10 +48,6 @@ void defineSurface(const generator::Surface& surface, std::string& defines) {
                : surface.kind == Kind::torus   ? "#define SURFACE_TORUS\n"
                                                : "#define SURFACE_RING\n";
     if (surface.turnFromX) defines += "#define SURFACE_TURN_FROM_X\n";
-    // Where the turn about Y ends in a point, or nearly.
-    const bool narrow = std::min(surface.form.x, surface.form.x + surface.form.y) < 0.5;
-    const bool tips = surface.kind == Kind::ellipsoid || (surface.kind == Kind::frustum && narrow);
-    if (tips && !surface.discUv) defines += "#define SURFACE_TIPS\n";
     if (surface.discUv) defines += "#define SURFACE_DISC_UV\n";
 }
 
@@ -246,7 +242,12 @@ ProgramKey Painter::State::keyOf(const FramePlan& plan, const DrawItem& item,
     if (item.surface && !plain) defineSurface(*item.surface, defines);
     if (instanced) define("INSTANCED");
     if (plan.layer != Layer::color) return {"model", defines};
-    if (item.texture >= 0) define("TEXTURED");
+    if (item.texture >= 0) {
+        const auto filter = plan.textures[static_cast<std::size_t>(item.texture)].filter;
+        define("TEXTURED");
+        if (filter == scene::Filter::mipmap) define("FILTER_MIPMAP");
+        if (filter == scene::Filter::anisotropic) define("FILTER_ANISOTROPIC");
+    }
     if (item.texture >= 0 && item.mapping == scene::Mapping::sphere) define("MAPPING_SPHERE");
     if (item.texture >= 0 && item.mapping == scene::Mapping::texgenObject) define("TEXGEN_OBJECT");
     if (item.texture >= 0 && item.mapping == scene::Mapping::texgenEye) define("TEXGEN_EYE");

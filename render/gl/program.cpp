@@ -29,9 +29,11 @@ class Shader {
             name.starts_with("model") ? shaderText("common.glsl") : std::string_view{};
         const std::string_view surface =
             name == "model.frag" ? shaderText("surface.glsl") : std::string_view{};
+        const std::string_view texture =
+            name == "model.frag" ? shaderText("texture.glsl") : std::string_view{};
         const std::string_view body = shaderText(name);
-        const std::string text =
-            head + std::string(common) + std::string(surface) + std::string(body);
+        const std::string text = head + std::string(common) + std::string(texture) +
+                                 std::string(surface) + std::string(body);
         const GLchar* const data = text.data();
         const auto size = static_cast<GLint>(text.size());
         api_.ShaderSource(shader_, 1, &data, &size);

@@ -380,3 +380,36 @@ TEST_CASE("half the error never makes a coarser mesh, and an orbit meets few mes
         CHECK(met.size() <= 8);
     }
 }
+
+TEST_CASE("half the error lowers the median of the true error over 100 cameras") {
+    Lottery lottery(31);
+    render::MeshLibrary meshes(std::size_t{64} << 20);
+    for (int kind = 0; kind < 11; ++kind) {
+        std::vector<double> whole, half;
+        std::string name;
+        while (whole.size() < 100) {
+            std::map<std::string, std::string> files;
+            const Subject subject = lottery.subject(kind, files);
+            View view = viewOf(lottery, subject);
+            const scene::BundleAssets assets(files);
+            // Fine enough that the ladder's coarsest mesh is not the one for both.
+            view.options.errorPx = 0.5;
+            const render::FramePlan coarse = render::plan(view.scene, view.options, assets, meshes);
+            if (coarse.items.empty()) continue;
+            view.options.errorPx = 0.25;
+            const render::FramePlan fine = render::plan(view.scene, view.options, assets, meshes);
+            whole.push_back(worstPx(subject, coarse, lottery));
+            half.push_back(worstPx(subject, fine, lottery));
+            name = subject.name;
+        }
+        const auto median = [](std::vector<double>& all) {
+            std::nth_element(all.begin(), all.begin() + 50, all.end());
+            return all[50];
+        };
+        const double before = median(whole), after = median(half);
+        std::printf("%-11s median of the true error: %.3f px at 0.5, %.3f px at 0.25\n",
+                    name.c_str(), before, after);
+        CAPTURE(name, before, after);
+        CHECK(after < before);
+    }
+}

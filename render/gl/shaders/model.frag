@@ -1,7 +1,3 @@
-#ifdef TEXTURED
-in vec2 uv;
-uniform sampler2D image;
-#endif
 #ifdef SURFACE
 uniform vec3 surfaceLengths;
 #if defined(TEXGEN_OBJECT) || defined(TEXGEN_EYE)
@@ -41,29 +37,11 @@ uniform vec3 plainColor;
 
 out vec4 result;
 
-#ifdef MAPPING_SPHERE
-const float kPi = 3.14159265358979;
-vec4 sampleSphere(vec3 position) {
-    vec3 p = unitOr(position, vec3(0.0, 0.0, 1.0));
-    float u = 0.5 + atan(p.z, p.x) / (2.0 * kPi);
-    float v = 0.5 + asin(clamp(p.y, -1.0, 1.0)) / kPi;
-    // Across the seam u jumps by one; the nearer of two unwrappings has the true derivative.
-    float other = fract(u + 0.5) - 0.5;
-    vec2 a = vec2(u, v), b = vec2(other, v);
-    vec2 dx = dFdx(a), dy = dFdy(a), ex = dFdx(b), ey = dFdy(b);
-    if (abs(ex.x) + abs(ey.x) < abs(dx.x) + abs(dy.x)) {
-        dx = ex;
-        dy = ey;
-    }
-    return textureGrad(image, a, dx, dy);
-}
-#endif
-
 void main() {
 #ifdef SURFACE
     float along = toSurface();
     vec3 unit = unitPosition + along * unitRay;
-    vec3 normal = surfaceNormal(unit);
+    vec3 normal = normalFromObject * surfaceGradient(unit);
 #if defined(PHONG) || defined(LAYER_DEPTH) || defined(TEXGEN_EYE)
     vec3 position = positionView * (1.0 + along);
 #endif
@@ -74,6 +52,31 @@ void main() {
 #if defined(PHONG) || defined(LAYER_DEPTH)
     vec3 position = positionView;
 #endif
+#endif
+#if defined(TEXTURED) && defined(SURFACE)
+    vec3 gradient = surfaceGradient(unit), reach = (1.0 + along) * unitRay;
+    vec3 right = tangentChange((1.0 + along) * CHANGE_RIGHT(unitRay), reach, gradient);
+    vec3 up = tangentChange((1.0 + along) * CHANGE_UP(unitRay), reach, gradient);
+#if defined(MAPPING_SPHERE)
+    vec4 texel =
+        sampleSphere(unit * surfaceLengths, right * surfaceLengths, up * surfaceLengths);
+#elif defined(TEXGEN_OBJECT)
+    mat3x2 plane = transpose(mat2x3(planeS.xyz * surfaceLengths, planeT.xyz * surfaceLengths));
+    vec4 texel = filtered(plane * unit + vec2(planeS.w, planeT.w), plane * right, plane * up);
+#elif defined(TEXGEN_EYE)
+    mat3x2 plane = transpose(mat2x3(planeS.xyz, planeT.xyz));
+    vec3 eyeRight = tangentChange((1.0 + along) * CHANGE_RIGHT(positionView), position, normal);
+    vec3 eyeUp = tangentChange((1.0 + along) * CHANGE_UP(positionView), position, normal);
+    vec4 texel =
+        filtered(plane * position + vec2(planeS.w, planeT.w), plane * eyeRight, plane * eyeUp);
+#else
+    vec4 texel = sampleSurface(unit, uv, right, up);
+#endif
+#elif defined(TEXTURED) && defined(MAPPING_SPHERE)
+    vec4 texel =
+        sampleSphere(positionMapped, CHANGE_RIGHT(positionMapped), CHANGE_UP(positionMapped));
+#elif defined(TEXTURED)
+    vec4 texel = texture(image, uv);
 #endif
 #if defined(LAYER_ID)
     result = vec4(plainColor, 1.0);
@@ -95,29 +98,7 @@ void main() {
 #endif
     result = vec4(modulated, 1.0);
 #ifdef TEXTURED
-#ifdef MAPPING_SPHERE
-#ifdef SURFACE
-    result.rgb *= sampleSphere(unit * surfaceLengths).rgb;
-#else
-    result.rgb *= sampleSphere(positionMapped).rgb;
-#endif
-#elif defined(SURFACE)
-#if defined(TEXGEN_OBJECT)
-    vec4 place = vec4(unit * surfaceLengths, 1.0);
-    vec2 at = vec2(dot(planeS, place), dot(planeT, place));
-#elif defined(TEXGEN_EYE)
-    vec2 at = vec2(dot(planeS, vec4(position, 1.0)), dot(planeT, vec4(position, 1.0)));
-#else
-#define SURFACE_OWN_UV
-#endif
-#ifdef SURFACE_OWN_UV
-    result.rgb *= sampleSurface(image, unit, uv).rgb;
-#else
-    result.rgb *= texture(image, at).rgb;
-#endif
-#else
-    result.rgb *= texture(image, uv).rgb;
-#endif
+    result.rgb *= texel.rgb;
 #endif
 #ifdef SEPARATE_SPECULAR
 #ifdef PHONG

@@ -66,19 +66,18 @@ float toSurface() {
 #endif
 }
 
-// Of any length, eye space.
-vec3 surfaceNormal(vec3 q) {
+// Out of the surface, of any length.
+vec3 surfaceGradient(vec3 q) {
 #if defined(SURFACE_ELLIPSOID)
-    return normalFromObject * q;
+    return q;
 #elif defined(SURFACE_FRUSTUM)
-    float radius = surfaceForm.x + surfaceForm.y * q.y;
-    return normalFromObject *
-           (cap != 0.0 ? vec3(0.0, cap, 0.0) : vec3(q.x, -surfaceForm.y * radius, q.z));
+    if (cap != 0.0) return vec3(0.0, cap, 0.0);
+    return vec3(q.x, -surfaceForm.y * (surfaceForm.x + surfaceForm.y * q.y), q.z);
 #elif defined(SURFACE_TORUS)
     float radius = length(q.xz);
-    return normalFromObject * vec3(q.x - q.x / radius, q.y, q.z - q.z / radius);
+    return vec3(q.x - q.x / radius, q.y, q.z - q.z / radius);
 #else
-    return cap * normalFromObject[1];
+    return vec3(0.0, cap, 0.0);
 #endif
 }
 
@@ -98,7 +97,6 @@ vec2 surfaceCoordinates(vec3 q, vec2 near) {
 #ifdef SURFACE_DISC_UV
     return surfaceUv.xz + surfaceUv.yw * q.xz;
 #else
-    const float kTurn = 6.28318530717959;
     float radius = length(q.xz);
 #ifdef SURFACE_TURN_FROM_X
     float turn = atan(-q.z, q.x) / kTurn;
@@ -123,36 +121,38 @@ vec2 surfaceCoordinates(vec3 q, vec2 near) {
 #endif
 }
 
-#ifdef SURFACE_TIPS
-// How the coordinates change with q by `step`. At a pole or an apex the turn changes so fast that
-// differences between pixels are no derivatives.
+// The coordinates' change as q, on the surface, moves by `step`.
 vec2 coordinateChange(vec3 q, vec3 step) {
-    const float kTurn = 6.28318530717959;
-    float squared = max(dot(q.xz, q.xz), 1e-12);
-    float turn = (q.z * step.x - q.x * step.z) / (kTurn * squared);
-#ifdef SURFACE_ELLIPSOID
-    float radius = sqrt(squared);
-    float change = radius * step.y - q.y * dot(q.xz, step.xz) / radius;
-    float share = change / (0.5 * kTurn * dot(q, q));
+#ifdef SURFACE_DISC_UV
+    return surfaceUv.yw * step.xz;
 #else
+#if defined(SURFACE_ELLIPSOID)
+    float share = 2.0 * latitudeChange(q, 0.0, step);
+#elif defined(SURFACE_FRUSTUM)
     float share = step.y;
-#endif
-    return surfaceUv.yw * vec2(turn, share);
-}
-#endif
-
-vec4 sampleSurface(sampler2D image, vec3 q, vec2 near) {
-    vec2 uv = surfaceCoordinates(q, near);
-#ifdef SURFACE_TIPS
-    vec3 dx = dFdx(q), dy = dFdy(q);
-#ifdef SURFACE_FRUSTUM
-    vec2 ex = dFdx(near), ey = dFdy(near);
-    if (cap != 0.0) return textureGrad(image, uv, ex, ey);
-#endif
-    return textureGrad(image, uv, coordinateChange(q, dx), coordinateChange(q, dy));
+#elif defined(SURFACE_TORUS)
+    float share = latitudeChange(q, 1.0, step);
 #else
-    return texture(image, uv);
+    float share = dot(q.xz, step.xz) / (length(q.xz) * (1.0 - surfaceForm.x));
 #endif
+    return surfaceUv.yw * vec2(turnChange(q, step), share);
+#endif
+}
+
+// The neighbouring ray meets the tangent plane at: `aside`, the change at the triangle of what is
+// `reach` from the eye, less what lies along the ray. Space of `gradient`.
+vec3 tangentChange(vec3 aside, vec3 reach, vec3 gradient) {
+    float facing = dot(gradient, reach);
+    if (abs(facing) < 1e-12) return aside;
+    return aside - reach * (dot(gradient, aside) / facing);
+}
+
+vec4 sampleSurface(vec3 q, vec2 near, vec3 right, vec3 up) {
+    vec2 at = surfaceCoordinates(q, near);
+#ifdef SURFACE_FRUSTUM
+    if (cap != 0.0) return filtered(at, balance * CHANGE_RIGHT(near), balance * CHANGE_UP(near));
+#endif
+    return filtered(at, coordinateChange(q, right), coordinateChange(q, up));
 }
 #endif
 #endif

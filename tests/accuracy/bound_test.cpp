@@ -384,7 +384,7 @@ TEST_CASE("half the error never makes a coarser mesh, and an orbit meets few mes
 TEST_CASE("half the error lowers the median of the true error over 100 cameras") {
     Lottery lottery(31);
     render::MeshLibrary meshes(std::size_t{64} << 20);
-    for (int kind = 0; kind < 11; ++kind) {
+    for (int kind = 2; kind < 11; ++kind) {  // planes and boxes have none
         std::vector<double> whole, half;
         std::string name;
         while (whole.size() < 100) {

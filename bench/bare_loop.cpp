@@ -143,7 +143,9 @@ void appendChunk(std::string& out, const std::string& typeAndBytes) {
     appendU32(out, libdeflate_crc32(0, typeAndBytes.data(), typeAndBytes.size()));
 }
 
-std::string encode(const std::vector<std::uint8_t>& rgba, int width, int height) {
+}  // namespace
+
+std::string bareEncode(const std::vector<std::uint8_t>& rgba, int width, int height) {
     std::string out("\x89PNG\r\n\x1a\n", 8);
     std::string head("IHDR");
     appendU32(head, static_cast<std::uint32_t>(width));
@@ -170,6 +172,8 @@ std::string encode(const std::vector<std::uint8_t>& rgba, int width, int height)
     appendChunk(out, "IEND");
     return out;
 }
+
+namespace {
 
 struct Vertex {
     glm::vec3 position{0.0F}, normal{0.0F};
@@ -346,7 +350,7 @@ std::string BareLoop::frame() {
     }
     gl.Finish();
     if (gl.GetError() != GL_NO_ERROR) throw std::runtime_error("GL error in the bare loop");
-    return encode(s.window, plan.width, plan.height);
+    return bareEncode(s.window, plan.width, plan.height);
 }
 
 }  // namespace farol::bench

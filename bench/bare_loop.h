@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,9 @@
 /// shares nothing with the renderer but the meshes, matrices and decoded pictures it is given.
 namespace farol::bench {
 
+/// A PNG of RGBA bytes, top row first: RGB, filter Sub, libdeflate level 1.
+std::string bareEncode(const std::vector<std::uint8_t>& rgba, int width, int height);
+
 class BareLoop {
   public:
     /// textures[i] is the decoded picture of plan.textures[i].
@@ -20,7 +24,7 @@ class BareLoop {
     BareLoop(const BareLoop&) = delete;
     BareLoop& operator=(const BareLoop&) = delete;
 
-    /// Draws the frame and returns it as a PNG (RGB, filter Sub, libdeflate level 1).
+    /// Draws the frame and returns it by bareEncode.
     std::string frame();
 
   private:

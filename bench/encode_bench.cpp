@@ -1,4 +1,5 @@
-// Encoders on one picture, turn by turn: ours, libpng by level, JPEG, WebP. Milliseconds and bytes:
+// Encoders on one picture, turn by turn: ours, libdeflate, libpng by level, JPEG, WebP.
+// Milliseconds and bytes:
 //   bench_encode SCENE.xml [--runs N] [name=value ...]
 // A line of JSON an encoder. (OpenImageIO writes PNG by libpng at level 6.)
 #include <png.h>
@@ -7,6 +8,7 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
+#include "bench/bare_loop.h"
 #include "bench/measure.h"
 #include "render/encode.h"
 
@@ -60,6 +62,9 @@ int main(int count, char** arguments) try {
     render::Renderer().draw(job, image);
     std::vector<Encoder> all;
     all.push_back({"farol png", render::encodePng});
+    all.push_back({"libdeflate 1 Sub", [](const render::Image& i) {
+                       return bench::bareEncode(i.pixels, i.width, i.height);
+                   }});
     for (const int level : {1, 3, 6, 9})
         all.push_back({"libpng " + std::to_string(level),
                        [level](const render::Image& i) { return libpng(i, level, 0); }});

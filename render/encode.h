@@ -7,8 +7,8 @@
 
 namespace farol::render {
 
-/// PNG, 8 bits: RGB when every alpha is 255, else RGBA. Filter Sub, zlib level 1: measured best in
-/// time and no larger than the default on rendered pictures (docs/accuracy.md).
+/// PNG, 8 bits: RGB when every alpha is 255, else RGBA. Filter Sub, ISA-L level 2: measured
+/// best in time for their size on rendered pictures (docs/decisions/0010-png.md).
 std::string encodePng(const Image& image);
 /// Baseline JPEG 4:4:4 on black; quality 1..100. For fast frames.
 std::string encodeJpeg(const Image& image, int quality);

@@ -100,7 +100,7 @@ const std::vector<Library> kLibraries{{{"GL/", "EGL/"}, "render/gl/", 0},
                                       {{"hiredis/"}, "server/store/", 1},
                                       {{"seccomp.h"}, "server/worker/", 1},
                                       {{"archive.h", "archive_entry.h"}, "scene/", 1},
-                                      {{"libdeflate"}, "render/", 1},
+                                      {{"isa-l"}, "render/", 1},
                                       {{"jpeglib", "webp/", "turbojpeg"}, "render/", 2},
                                       {{"png.h"}, "render/", 1},
                                       {{"catch2/"}, "tests/", 0}};

@@ -113,6 +113,8 @@ class Backend {
     /// before this one is begun.
     virtual Done<render::Picture> render(const render::Job& job, const std::string& tag,
                                          const Turn& turn) = 0;
+    /// Throws Busy where render() with these would be refused now for want of room.
+    virtual void expectRoom(const std::string& tag, const Turn& turn) const = 0;
     virtual Done<render::SceneReport> inspect(const render::Job& job) = 0;
     virtual Done<std::string> mesh(const MeshJob& job) = 0;
     /// The pictures of a turn as one body; the content type is by `turn`.

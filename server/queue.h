@@ -52,6 +52,18 @@ class JobQueue {
 
     explicit JobQueue(QueueLimits limits) : limits_(limits) {}
 
+    /// Throws the Busy that run() would throw now for want of room: before work is done for a job
+    /// that will be refused.
+    void expectRoom(const Turn& turn) const {
+        const std::lock_guard lock(mutex_);
+        if (!idle_.empty() || static_cast<int>(queue_.size()) < limits_.waiting) return;
+        const auto overtaken = [&](const std::shared_ptr<Ticket>& one) {
+            return one->turn.session == turn.session && one->turn.seq < turn.seq;
+        };
+        if (!turn.session.empty() && std::any_of(queue_.begin(), queue_.end(), overtaken)) return;
+        throw full();
+    }
+
     /// Blocks until a worker has run `work`. Rethrows what it throws; throws Busy. `key` names
     /// what a worker is warm for.
     template <typename Result>
@@ -78,8 +90,7 @@ class JobQueue {
                 take(*ticket);
                 seat->called.notify_one();
             } else if (static_cast<int>(queue_.size()) >= limits_.waiting) {
-                throw Busy("busy.queue", "All workers are busy and the queue is full.",
-                           retryAfterS());
+                throw full();
             } else {
                 queue_.push_back(ticket);
             }
@@ -156,6 +167,10 @@ class JobQueue {
 
   private:
     // The callers hold the lock.
+    Busy full() const {
+        return {"busy.queue", "All workers are busy and the queue is full.", retryAfterS()};
+    }
+
     Busy superseded() {
         ++superseded_;
         return {"busy.superseded", "A newer frame of this session was asked for.", 0};

@@ -163,7 +163,8 @@ http::Response Service::getImage(const Call& call, const http::Fields& preset) {
     } else if (auto kept = pictures_.find(tag)) {
         response = std::move(*kept);
     } else {
-        render::Job job = jobToDraw(scene);
+        backend_.expectRoom(tag, turn);
+        render::Job job = jobOfScene(scene);
         job.options = wanted.picture;
         job.strict = wanted.strict;
         tag = tagOf();
@@ -209,7 +210,7 @@ http::Response Service::getTurntable(const Call& call) {
     if (matchesTag(call.request.header("if-none-match"), tag)) {
         response.status = 304;
     } else {
-        render::Job job = jobToDraw(scene);
+        render::Job job = jobOfScene(scene);
         job.options = wanted.picture;
         job.strict = wanted.strict;
         tag = tagOf();

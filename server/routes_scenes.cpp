@@ -60,7 +60,7 @@ ServedScene Service::sceneOf(const std::string& id) const {
     return std::move(*scene);
 }
 
-render::Job Service::jobOfScene(const ServedScene& scene) const {
+render::Job Service::jobOfScene(ServedScene& scene) const {
     const auto goneAway = [&] {
         return Error("http.not-found", "The scene " + scene::quoted(scene.id) + " went away.");
     };
@@ -75,13 +75,8 @@ render::Job Service::jobOfScene(const ServedScene& scene) const {
     job.name = scene.fileName();
     job.xml = std::move(*xml);
     job.assets = scenes_.assets(scene);
-    job.identity = entityTag({job.xml, scene.version});
-    return job;
-}
-
-render::Job Service::jobToDraw(ServedScene& scene) const {
-    render::Job job = jobOfScene(scene);
-    if (!scene.stored) scene.document = scene::contentDigest(job.xml);
+    scene.document = scene::contentDigest(job.xml);  // of what was read, were it changed just now
+    job.identity = entityTag({scene.document, scene.version});
     return job;
 }
 
@@ -94,7 +89,8 @@ std::shared_ptr<const Service::Known> Service::known(const ServedScene& scene) {
     auto fresh = std::make_shared<Known>();
     fresh->version = scene.version;
     try {
-        fresh->report = backend_.inspect(jobOfScene(scene)).result;
+        ServedScene found = scene;
+        fresh->report = backend_.inspect(jobOfScene(found)).result;
         fresh->report.elements = {};  // one for each copy: asked for seldom, and too much to keep
         fresh->report.copies = {};
     } catch (const Error& error) {
@@ -162,7 +158,7 @@ http::Response Service::getModels(const Call& call) {
         response.set("ETag", tag);
         return response;
     }
-    const render::Job job = jobToDraw(scene);
+    const render::Job job = jobOfScene(scene);
     response.set("ETag", tagOf());
     response.contentType = "application/json";
     response.body = dump(modelsOf(backend_.inspect(job).result)) + "\n";
@@ -171,7 +167,8 @@ http::Response Service::getModels(const Call& call) {
 
 http::Response Service::getSource(const Call& call) {
     readParameters(call.request.query, {});
-    return tagged(call, jobOfScene(sceneOf(call.parameter)).xml, "application/xml");
+    ServedScene scene = sceneOf(call.parameter);
+    return tagged(call, jobOfScene(scene).xml, "application/xml");
 }
 
 http::Response Service::listPrimitives(const Call& call) {

@@ -69,7 +69,8 @@ Upload Service::takeUpload(const Call& call, const std::string& base) const {
     if (!upload.bundle || upload.bundle->files.size() != 1)
         throw Error("option.range", "base= is for a document that comes alone, without files.", {},
                     "base");
-    return onFilesOf(jobOfScene(sceneOf(base)), upload);
+    ServedScene scene = sceneOf(base);
+    return onFilesOf(jobOfScene(scene), upload);
 }
 
 http::Response Service::postScene(const Call& call) {

@@ -15,6 +15,7 @@ namespace {
 // A scene's source is XML from strangers: a browser that opens it must not run what is in it.
 constexpr const char* kDataPolicy = "default-src 'none'; frame-ancestors 'none'; sandbox";
 
+constexpr std::chrono::milliseconds kRefusalHold{200};
 constexpr std::uint64_t kMemoryStoreBytes = std::uint64_t{128} << 20U;
 
 http::Response jsonResponse(const json& value) {
@@ -120,6 +121,9 @@ http::Response Service::handle(const http::Request& request, http::Body& body) {
         if (busy.retryAfterS() > 0)
             problem.headers.emplace_back("Retry-After", std::to_string(busy.retryAfterS()));
         response = problemResponse(problem, request.id);
+        // Who asks again at once must not take the processor from those who are drawn for.
+        if (busy.code() == "busy.queue" && request.path.starts_with("/v1/"))
+            response.hold = kRefusalHold;
     } catch (const std::exception& fault) {
         // What went wrong is for the operator; the client gets the id to ask about.
         logger_.event("internal-error", request.id + ": " + fault.what());

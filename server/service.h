@@ -84,10 +84,9 @@ class Service final : public http::Handler {
     http::Response getPrimitive(const Call& call);
 
     ServedScene sceneOf(const std::string& id) const;
-    render::Job jobOfScene(const ServedScene& scene) const;
-    /// The same, and the scene told of the document that was read: its tag is then of what is
-    /// drawn, also if the file changed since it was looked for.
-    render::Job jobToDraw(ServedScene& scene) const;
+    /// The scene is told of the document that was read: its tag is then of what is drawn, also if
+    /// the file changed since it was looked for.
+    render::Job jobOfScene(ServedScene& scene) const;
     Upload takeUpload(const Call& call, const std::string& base) const;
     void authorize(const http::Request& request) const;
     bool isFound(const ServedScene& scene, const std::string& words);

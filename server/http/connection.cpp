@@ -149,6 +149,7 @@ class Connection::Parser final : public httplib::Server {
 
     Answered serve(Link& link, Incoming incoming, const std::atomic<bool>& isClosing) {
         incoming_ = &incoming;
+        link_ = &link;
         isClosing_ = &isClosing;
         Head& head = incoming.head;
         if (head.request.id.empty()) head.request.id = newRequestId();
@@ -188,6 +189,7 @@ class Connection::Parser final : public httplib::Server {
     void answer(Response response, httplib::Response& out) {
         answered_ = true;
         if (response.status >= 400 || *isClosing_) keep_ = false;
+        if (response.hold.count() > 0 && !*isClosing_) link_->hold();
         out.headers.clear();
         out.status = response.status;
         for (const auto& [name, value] : response.headers)
@@ -205,6 +207,7 @@ class Connection::Parser final : public httplib::Server {
 
     http::Handler& handler_;
     Incoming* incoming_ = nullptr;
+    Link* link_ = nullptr;
     const std::atomic<bool>* isClosing_ = nullptr;
     Response last_;
     std::shared_ptr<const std::string> shared_;  ///< the body of this answer

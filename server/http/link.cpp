@@ -28,6 +28,7 @@ Link::Got Link::receive() {
 }
 
 std::size_t Link::push(std::string_view more) {
+    if (held_) return 0;
     std::size_t taken = 0;
     while (!broken_ && (isPending() || taken < more.size())) {
         // The kernel only reads what a message points to.

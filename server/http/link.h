@@ -22,6 +22,10 @@ class Link {
     /// the rest by flush().
     void put(std::string_view bytes);
     void flush();
+    /// Nothing is sent until release().
+    void hold() { held_ = true; }
+    void release() { held_ = false; }
+    bool isHeld() const { return held_; }
     /// What is pending will not be sent any more.
     void abandon();
     bool isPending() const { return sent_ < out_.size(); }
@@ -39,7 +43,7 @@ class Link {
     int fd_;
     std::string in_, out_;
     std::size_t sent_ = 0;  ///< of out_
-    bool broken_ = false;
+    bool broken_ = false, held_ = false;
 };
 
 }  // namespace farol::server::http

@@ -112,6 +112,7 @@ Traffic Listener::traffic() const {
             case Phase::active:
                 ++now.active;
                 break;
+            case Phase::holding:
             case Phase::sending:
             case Phase::lingering:
                 ++now.sending;
@@ -213,6 +214,7 @@ void Listener::look(int fd) {
         phase = client->phase;
     }
     if (phase == Phase::lingering) return linger(*client);
+    if (phase == Phase::holding) return giveUp(*client, Phase::sending);  // it went away
     client->link.flush();
     count(*client);
     if (phase != Phase::sending) return receive(*client);
@@ -258,7 +260,8 @@ void Listener::sweep() {
     {
         const std::lock_guard lock(mutex_);
         for (const auto& [fd, client] : clients_) {
-            if (client->phase == Phase::active || now < client->until) continue;
+            const bool mayWait = !stopping_ || client->phase != Phase::holding;
+            if (client->phase == Phase::active || (now < client->until && mayWait)) continue;
             late.emplace_back(client.get(), client->phase);
             if (client->phase == Phase::sending) ++closed_.slowReader;
             if (client->phase == Phase::receiving)
@@ -272,7 +275,10 @@ void Listener::sweep() {
 // A thread has the last word with a client that is too slow: to tell it so, or the log.
 void Listener::giveUp(Client& client, Phase phase) {
     if (phase == Phase::idle || phase == Phase::lingering) return drop(client);
-    if (phase == Phase::receiving)
+    if (phase == Phase::holding) {
+        client.link.release();
+        client.link.flush();
+    } else if (phase == Phase::receiving)
         client.arrival.giveUp(client.link.in());
     else
         client.link.abandon();
@@ -293,7 +299,7 @@ void Listener::relieve() {
             phase = slowest->phase;
             ++closed_.memory;
         }
-        if (phase != Phase::sending) {
+        if (phase != Phase::sending && phase != Phase::holding) {
             drop(*slowest);
         } else {
             slowest->link.abandon();
@@ -307,8 +313,9 @@ void Listener::relieve() {
 void Listener::watch(const Client& client) const {
     epoll_event event{};
     event.events = EPOLLONESHOT;
-    if (client.link.isPending()) event.events |= EPOLLOUT;
-    if (client.phase != Phase::sending) event.events |= EPOLLIN | EPOLLRDHUP;
+    if (client.link.isPending() && !client.link.isHeld()) event.events |= EPOLLOUT;
+    if (client.phase != Phase::sending && client.phase != Phase::holding)
+        event.events |= EPOLLIN | EPOLLRDHUP;
     event.data.fd = client.link.fd();
     ::epoll_ctl(epollFd_, EPOLL_CTL_MOD, client.link.fd(), &event);
 }
@@ -410,6 +417,8 @@ bool Listener::nextIsHere(Client& client) {
 void Listener::serve(Client& client, Connection& connection) {
     for (;;) {
         if (client.answered) {
+            if (client.link.isHeld() && !client.link.isBroken())
+                return enter(client, Phase::holding, Clock::now(), client.answered->response.hold);
             if (client.link.isPending())
                 return enter(client, Phase::sending, Clock::now(), options_.timeouts.write);
             const Answered done = std::move(*client.answered);

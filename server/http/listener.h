@@ -60,7 +60,7 @@ class Listener {
 
   private:
     /// A thread has the connection while it is `active`, else the one that moves bytes.
-    enum class Phase { idle, receiving, active, sending, lingering };
+    enum class Phase { idle, receiving, active, holding, sending, lingering };
     struct Client {
         Client(int fd, const Handler& handler, std::string address)
             : link(fd), arrival(handler), remoteAddress(std::move(address)) {}

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -40,7 +41,8 @@ struct Response {
     std::string body;
     std::shared_ptr<const std::string> shared = {};  ///< the body instead, where others send it too
     std::string contentType;
-    Fields logged;  ///< more for this request's line in the log
+    Fields logged;                      ///< more for this request's line in the log
+    std::chrono::milliseconds hold{0};  ///< is sent that much later, and holds no thread
 
     void set(std::string name, std::string value) {
         headers.emplace_back(std::move(name), std::move(value));

@@ -250,6 +250,14 @@ Done<render::Picture> WorkerPool::render(const render::Job& job, const std::stri
     }
 }
 
+void WorkerPool::expectRoom(const std::string& tag, const Turn& turn) const {
+    {
+        const std::lock_guard lock(mutex_);
+        if (inFlight_.count(tag) > 0) return;
+    }
+    queue_.expectRoom(turn);
+}
+
 Done<render::SceneReport> WorkerPool::inspect(const render::Job& job) {
     Request request;
     request.task = Task::inspect;

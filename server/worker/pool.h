@@ -42,6 +42,7 @@ class WorkerPool final : public Backend {
 
     Done<render::Picture> render(const render::Job& job, const std::string& tag,
                                  const Turn& turn) override;
+    void expectRoom(const std::string& tag, const Turn& turn) const override;
     Done<render::SceneReport> inspect(const render::Job& job) override;
     Done<std::string> mesh(const MeshJob& job) override;
     Done<render::Picture> turntable(const render::Job& job, const Turntable& turn) override;

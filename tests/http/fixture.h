@@ -22,6 +22,7 @@ class FakeBackend final : public server::Backend {
     std::atomic<int> renders{0}, inspections{0};
     std::string name = "fake 1";
 
+    void expectRoom(const std::string&, const server::Turn&) const override {}
     server::Done<render::Picture> render(const render::Job& job, const std::string& tag,
                                          const server::Turn& turn) override;
     server::Done<render::SceneReport> inspect(const render::Job& job) override;

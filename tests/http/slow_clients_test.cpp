@@ -208,3 +208,36 @@ TEST_CASE("a service that is told to end delivers answers and bodies that are un
     CHECK(answer.closed);
     stopper.join();
 }
+
+TEST_CASE("who is refused for want of room is answered a little later, and holds no thread") {
+    constexpr int kThreads = 2, kClients = 12;
+    FakeServer server({}, [](server::http::ListenOptions& listen) { listen.threads = kThreads; });
+    server.backend.onRender = [](const render::Job&) -> render::Picture {
+        throw server::Busy("busy.queue", "All workers are busy and the queue is full.", 3);
+    };
+    std::vector<std::unique_ptr<RawClient>> clients;
+    const auto start = std::chrono::steady_clock::now();
+    for (int i = 0; i < kClients; ++i) {
+        clients.push_back(std::make_unique<RawClient>(server.port()));
+        REQUIRE(
+            clients.back()->send("POST /v1/render HTTP/1.1\r\nHost: a\r\nContent-Type: "
+                                 "application/xml\r\nContent-Length: 8\r\n\r\n<world/>"));
+    }
+    CHECK(get(server.port(), "/livez").status == 200);
+    for (const auto& client : clients) {
+        const Answer answer = client->read();
+        CHECK(answer.status == 503);
+        CHECK(answer.code() == "busy.queue");
+        CHECK(answer.header("retry-after") == "3");
+        CHECK(client->closedByServer());
+    }
+    // Each one alone is late by that much; one after the other they would be by kClients / kThreads
+    // times it.
+    CHECK(std::chrono::steady_clock::now() - start >= std::chrono::milliseconds(200));
+    // One that goes away meanwhile, and a server that ends: both are over without them.
+    RawClient(server.port())
+        .send(
+            "POST /v1/render HTTP/1.1\r\nHost: a\r\nContent-Type: application/xml\r\n"
+            "Content-Length: 8\r\n\r\n<world/>");
+    server.stop();
+}

@@ -60,6 +60,7 @@ TEST_CASE("a full queue refuses at once") {
         while (pool.queue.state().busy != 1 || pool.queue.state().queued != i)
             std::this_thread::yield();
     }
+    CHECK_THROWS_AS(pool.queue.expectRoom({}), Busy);
     try {
         run(pool, [] { return 2; });
         FAIL("the fourth job was taken");
@@ -70,6 +71,7 @@ TEST_CASE("a full queue refuses at once") {
     release = true;
     for (std::thread& client : clients) client.join();
     CHECK(served == 3);
+    CHECK_NOTHROW(pool.queue.expectRoom({}));
     CHECK(run(pool, [] { return 3; }) == 3);
 }
 

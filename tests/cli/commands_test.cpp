@@ -37,7 +37,7 @@ const std::uint8_t* centreOf(const Image& image) {
 }  // namespace
 
 TEST_CASE("render draws the scene in its window's size") {
-    freshFolder("render");
+    freshFolder();
     writeFile("scene.xml", kScene);
     const Image image = draw("scene.xml");
     CHECK(image.width == 96);
@@ -48,7 +48,7 @@ TEST_CASE("render draws the scene in its window's size") {
 }
 
 TEST_CASE("every form of a flag is understood") {
-    freshFolder("flags");
+    freshFolder();
     writeFile("scene.xml", kScene);
     const Image eye = draw("scene.xml --eye -1,2,3");
     CHECK(draw("scene.xml --eye=-1,2,3") == eye);
@@ -65,7 +65,7 @@ TEST_CASE("every form of a flag is understood") {
 }
 
 TEST_CASE("the output's name chooses the format, and --format wins") {
-    freshFolder("formats");
+    freshFolder();
     writeFile("scene.xml", kScene);
     const auto beginning = [](const std::string& arguments, const std::string& name) {
         const Outcome found = run("render scene.xml -o " + arguments);
@@ -86,7 +86,7 @@ TEST_CASE("the output's name chooses the format, and --format wins") {
 }
 
 TEST_CASE("scenes come from stdin, and assets from where they are said to be") {
-    freshFolder("assets");
+    freshFolder();
     writeFile("scene.xml", kScene);
     const Outcome piped = run("render - -o p.png", kScene);
     INFO(piped.err);
@@ -102,7 +102,7 @@ TEST_CASE("scenes come from stdin, and assets from where they are said to be") {
 }
 
 TEST_CASE("a mesh file alone is drawn") {
-    freshFolder("meshes");
+    freshFolder();
     for (const std::string name : {"m.3d", "m.obj", "m.ply", "m.3db"}) {
         INFO(name);
         REQUIRE(run("generate torus 2 0.5 32 16 " + name).status == 0);
@@ -114,7 +114,7 @@ TEST_CASE("a mesh file alone is drawn") {
 }
 
 TEST_CASE("a written mesh reads back, in every format") {
-    freshFolder("convert");
+    freshFolder();
     const Outcome made = run("generate cone 1 2 4 3 a.3d");
     CHECK(made.status == 0);
     CHECK_THAT(made.out, Catch::Contains("triangles"));
@@ -130,7 +130,7 @@ TEST_CASE("a written mesh reads back, in every format") {
 }
 
 TEST_CASE("an output appears whole, and keeps its mode") {
-    freshFolder("atomic");
+    freshFolder();
     writeFile("scene.xml", kScene);
     writeFile("p.png", "old");
     REQUIRE(run("render scene.xml --width 0 -o p.png").status == 2);
@@ -142,7 +142,7 @@ TEST_CASE("an output appears whole, and keeps its mode") {
 }
 
 TEST_CASE("warnings are said, and with --strict they are errors") {
-    freshFolder("strict");
+    freshFolder();
     std::string scene = kScene;
     scene.replace(scene.find("<window"), 7, "<widnow");
     writeFile("scene.xml", scene);
@@ -160,7 +160,7 @@ TEST_CASE("warnings are said, and with --strict they are errors") {
 }
 
 TEST_CASE("all is said on stdout with --json, and nothing on stderr") {
-    freshFolder("json");
+    freshFolder();
     writeFile("scene.xml", kScene);
     writeFile("cut.xml", std::string(kScene).substr(0, 300));
     const auto told = [](const std::string& arguments, int status) {
@@ -196,7 +196,7 @@ TEST_CASE("all is said on stdout with --json, and nothing on stderr") {
 }
 
 TEST_CASE("compare crops what is larger, and shows where pictures differ") {
-    freshFolder("compare");
+    freshFolder();
     writeFile("scene.xml", kScene);
     REQUIRE(run("render scene.xml -o a.png").status == 0);
     REQUIRE(run("render scene.xml -o b.png --background 255,0,0").status == 0);
@@ -220,7 +220,7 @@ TEST_CASE("compare crops what is larger, and shows where pictures differ") {
 }
 
 TEST_CASE("what a file says cannot reach the terminal") {
-    freshFolder("terminal");
+    freshFolder();
     writeFile(
         "evil.xml",
         "<world><group><models><model file=\"\x1b]0;title\x07.3d\"/></models></group></world>");
@@ -230,7 +230,7 @@ TEST_CASE("what a file says cannot reach the terminal") {
 }
 
 TEST_CASE("an animation is one file of frames, or numbered files") {
-    freshFolder("animation");
+    freshFolder();
     std::string scene = kScene;
     scene.insert(scene.find("<models>"),
                  "<transform><rotate time=\"2\" x=\"0\" y=\"1\" z=\"0\"/></transform>");

@@ -30,7 +30,7 @@ void check(const std::vector<Case>& cases) {
 }  // namespace
 
 TEST_CASE("what the command line gets wrong is exit code 2") {
-    freshFolder("usage");
+    freshFolder();
     writeFile("scene.xml", kScene);
     writeFile("unknown.toml", "prot = 8080\n");
     writeFile("range.toml", "port = 99999\n");
@@ -99,7 +99,7 @@ TEST_CASE("what the command line gets wrong is exit code 2") {
 }
 
 TEST_CASE("what the input gets wrong is exit code 1") {
-    freshFolder("input");
+    freshFolder();
     writeFile("scene.xml", kScene);
     writeFile("empty.xml", "");
     writeFile("cut.xml", std::string(kScene).substr(0, 300));
@@ -130,7 +130,7 @@ TEST_CASE("what the input gets wrong is exit code 1") {
 }
 
 TEST_CASE("what cannot be written is exit code 3, and leaves nothing behind") {
-    freshFolder("output");
+    freshFolder();
     writeFile("scene.xml", kScene);
     writeFile("folder.png/file", "");
     check({
@@ -143,7 +143,7 @@ TEST_CASE("what cannot be written is exit code 3, and leaves nothing behind") {
 }
 
 TEST_CASE("help and version are exit code 0, on stdout") {
-    freshFolder("help");
+    freshFolder();
     for (const std::string arguments : {"--help", "--version", "version", "render --help",
                                         "generate --help", "serve --help", "health --help"}) {
         INFO(arguments);

@@ -36,7 +36,7 @@ std::string replaced(std::string text, const std::string& what, const std::strin
 }
 
 void makeClass() {
-    freshFolder("grade");
+    freshFolder();
     writeFile("reference.xml", kReference);
     writeFile("class/Ana Alves_101_assignsubmission_file_/scene.xml", kReference);
     writeFile("class/Bento_102_assignsubmission_file_/work/s.xml",
@@ -62,8 +62,6 @@ json gradeOf(const json& report, const std::string& id) {
 }
 
 constexpr const char* kReports[] = {"report.html", "grades.csv", "junit.xml", "report.json"};
-
-fs::path folder() { return fs::path(FAROL_TEST_OUTPUT) / "cli" / "grade"; }
 
 std::size_t resultsIn(const std::string& output) {
     std::error_code none;
@@ -137,7 +135,7 @@ class Running {
 
 /// Many that are no other's double: `count` of them, in `class`.
 void makeMany(int count) {
-    freshFolder("grade");
+    freshFolder();
     writeFile("reference.xml", kReference);
     for (int i = 0; i < count; ++i)
         writeFile("class/student-" + std::to_string(100 + i) + ".xml",
@@ -211,7 +209,7 @@ TEST_CASE("a submission that takes all memory, or no end, stops no other") {
 }
 
 TEST_CASE("a mistake without a place in the document is told like any other") {
-    freshFolder("grade");
+    freshFolder();
     writeFile("reference.xml", kReference);
     const std::string light =
         "<lights><light type=\"directional\" dirx=\"1\" diry=\"2\" dirz=\"1\"/></lights>";
@@ -279,7 +277,7 @@ TEST_CASE("tasks of a folder are found by their names, and pictures are referenc
 TEST_CASE("what grade is told wrongly is said, with its exit code") {
     makeClass();
     writeFile("rubric.json", R"({"criteria": [{"measure": "beauty"}]})");
-    fs::create_directories(fs::path(FAROL_TEST_OUTPUT) / "cli" / "grade" / "empty");
+    fs::create_directories(folder() / "empty");
     struct Case {
         const char* arguments;
         int status;

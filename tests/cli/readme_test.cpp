@@ -48,17 +48,16 @@ void replaceAll(std::string& text, const std::string& what, const std::string& b
         text.replace(at, what.size(), by);
 }
 
-fs::path folderWithScenes(const std::string& name) {
-    freshFolder(name);
-    const fs::path folder = fs::path(FAROL_TEST_OUTPUT) / "cli" / name;
-    fs::create_directory_symlink(fs::path(FAROL_SOURCE_DIR) / "scenes", folder / "scenes");
-    return folder;
+fs::path folderWithScenes() {
+    freshFolder();
+    fs::create_directory_symlink(fs::path(FAROL_SOURCE_DIR) / "scenes", folder() / "scenes");
+    return folder();
 }
 
 }  // namespace
 
 TEST_CASE("the README's commands do what it says") {
-    const fs::path readers = folderWithScenes("readme");
+    const fs::path readers = folderWithScenes();
     fs::create_directories(readers / "submissions");
     fs::copy(readers / "scenes" / "snowman", readers / "submissions" / "ana",
              fs::copy_options::recursive | fs::copy_options::overwrite_existing);
@@ -79,14 +78,14 @@ TEST_CASE("the README's requests get what it says") {
         WARN("skipped: there is no curl here; scripts/setup installs it");
         return;
     }
-    const fs::path folder = folderWithScenes("requests");
+    const std::string readers = folderWithScenes().string();
     Service service;
     const std::vector<std::string> requests = examples("curl");
     REQUIRE(requests.size() >= 5);
     for (std::string request : requests) {
         replaceAll(request, "http://127.0.0.1:8080", service.url());
         INFO(request);
-        CHECK(std::system(("cd '" + folder.string() + "' && " + request +
+        CHECK(std::system(("cd '" + readers + "' && " + request +
                            " --silent --show-error --max-time 60 >>answers.txt 2>&1")
                               .c_str()) == 0);
         INFO(readFile("answers.txt"));
@@ -100,7 +99,7 @@ TEST_CASE("the README's requests get what it says") {
 }
 
 TEST_CASE("serve is healthy until it is told to end, and ends with exit code 0") {
-    freshFolder("serve");
+    freshFolder();
     Service service;
     const Outcome up = run("health " + service.url());
     INFO(up.err);

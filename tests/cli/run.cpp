@@ -3,6 +3,7 @@
 #include <sys/wait.h>
 
 #include <catch2/catch.hpp>
+#include <cctype>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -12,19 +13,21 @@ namespace farol::test {
 namespace {
 namespace fs = std::filesystem;
 
-fs::path& folder() {
-    static fs::path path;
-    return path;
-}
+fs::path current;
 
 std::string quoted(const fs::path& path) { return "'" + path.string() + "'"; }
 
 }  // namespace
 
-void freshFolder(const std::string& name) {
-    folder() = fs::path(FAROL_TEST_OUTPUT) / "cli" / name;
-    fs::remove_all(folder());
-    fs::create_directories(folder());
+const fs::path& folder() { return current; }
+
+void freshFolder() {
+    std::string name = Catch::getResultCapture().getCurrentTestName();
+    for (char& c : name)
+        if (!std::isalnum(static_cast<unsigned char>(c))) c = '-';
+    current = fs::path(FAROL_TEST_OUTPUT) / "cli" / name;
+    fs::remove_all(current);
+    fs::create_directories(current);
 }
 
 void writeFile(const std::string& name, const std::string& bytes) {

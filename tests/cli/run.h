@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 
 namespace farol::test {
@@ -17,8 +18,11 @@ void writeFile(const std::string& name, const std::string& bytes);
 std::string readFile(const std::string& name);
 bool exists(const std::string& name);
 
-/// Empties the test's own folder and gives it this name.
-void freshFolder(const std::string& name);
+/// Empties the running test's own folder, which has that test's name: tests run side by side.
+void freshFolder();
+
+/// The folder freshFolder() made.
+const std::filesystem::path& folder();
 
 /// A small scene of a red sphere, lit from the camera's side.
 extern const char* const kScene;

@@ -7,7 +7,8 @@
 #include <unistd.h>
 
 #include <catch2/catch.hpp>
-#include <filesystem>
+
+#include "run.h"
 
 namespace farol::test {
 
@@ -15,8 +16,7 @@ Service::Service() {
     int ends[2];
     REQUIRE(::pipe2(ends, O_CLOEXEC) == 0);
     output_ = ends[0];
-    std::filesystem::create_directories(FAROL_TEST_OUTPUT);
-    const std::string scenes = FAROL_SOURCE_DIR "/scenes", log = FAROL_TEST_OUTPUT "/service.log";
+    const std::string scenes = FAROL_SOURCE_DIR "/scenes", log = folder().string() + ".service.log";
     std::string words[] = {FAROL_BINARY, "serve", "--port", "0", "--scenes", scenes};
     char* arguments[] = {words[0].data(), words[1].data(), words[2].data(), words[3].data(),
                          words[4].data(), words[5].data(), nullptr};

@@ -153,7 +153,7 @@ def run(bench, progress):
     rows = [{"load": "bare", "cpuMs": 1000 * bare}]
     workers = min(8, max(1, os.cpu_count() or 1))
     queue = max(16, 4 * workers)
-    common = ("--workers", workers, "--queue", queue, "--wait", WAIT_S)
+    common = ("--workers", workers, "--queue", queue, "--wait", WAIT_S, "--recycle", 1_000_000)
     # One core a worker's frames: several processes with as many threads each only get in each
     # other's way, and the bare frame's processor time is the same.
     with Daemon(bench.farol, *common, "--cache-bytes", 0) as daemon:

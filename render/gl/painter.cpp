@@ -119,6 +119,8 @@ struct Painter::State {
     void preparePlaces(const FramePlan& plan);
     Target::Resolver resolver(int samples);
     ProgramKey keyOf(const FramePlan& plan, const DrawItem& item, bool instanced) const;
+    void setLights(const std::vector<EyeLight>& lights, GLuint buffer,
+                   const LinkedProgram& program);
     void setMaterial(const FramePlan& plan, const DrawItem& item, const LinkedProgram& program);
 };
 
@@ -170,7 +172,7 @@ void Painter::State::compileAhead(const FramePlan& plan) {
         if (texture != 0) api.BindTexture(GL_TEXTURE_2D, texture);
         const auto set = static_cast<std::size_t>(first.lightSet);
         if (plan.lit && !plan.lightSets[set].empty())
-            api.BindBufferBase(GL_UNIFORM_BUFFER, kLightsBinding, lightBuffers[set].name());
+            setLights(plan.lightSets[set], lightBuffers[set].name(), program);
         api.BindVertexArray(meshes.get(*first.mesh, flat).array.name());
         api.DrawArrays(GL_TRIANGLES, 0, 3);
         if (done.size() >= kMostAhead) break;
@@ -272,6 +274,13 @@ ProgramKey Painter::State::keyOf(const FramePlan& plan, const DrawItem& item,
     return {"model", defines};
 }
 
+void Painter::State::setLights(const std::vector<EyeLight>& lights, GLuint buffer,
+                               const LinkedProgram& program) {
+    api.BindBufferBase(GL_UNIFORM_BUFFER, kLightsBinding, buffer);
+    if (program.lightCount >= 0)
+        api.Uniform1i(program.lightCount, static_cast<GLint>(lights.size()));
+}
+
 void Painter::State::setMaterial(const FramePlan& plan, const DrawItem& item,
                                  const LinkedProgram& program) {
     if (plan.layer == Layer::id) {
@@ -333,7 +342,7 @@ void Painter::State::drawItems(const FramePlan& plan, const glm::mat4& clip, int
         setMaterial(plan, first, program);
         const auto set = static_cast<std::size_t>(first.lightSet);
         if (plan.lit && !plan.lightSets[set].empty())
-            api.BindBufferBase(GL_UNIFORM_BUFFER, kLightsBinding, lightBuffers[set].name());
+            setLights(plan.lightSets[set], lightBuffers[set].name(), program);
         if (first.texture >= 0)
             api.BindTexture(GL_TEXTURE_2D, textureNames[static_cast<std::size_t>(first.texture)]);
         api.FrontFace(first.mirrored ? GL_CW : GL_CCW);

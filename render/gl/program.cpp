@@ -94,6 +94,7 @@ const LinkedProgram& ProgramCache::get(const ProgramKey& key) {
     linked.surfaceDiscs = at("surfaceDiscs");
     linked.balance = at("balance");
     linked.seenFrom = at("seenFrom");
+    linked.lightCount = at("lightCount");
     linked.plainColor = at("plainColor");
     linked.planeS = at("planeS");
     linked.planeT = at("planeT");

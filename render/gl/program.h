@@ -24,7 +24,7 @@ struct LinkedProgram {
     GLint materialDiffuse, materialBase, materialAmbient, materialSpecular, materialShininess;
     GLint unitFromObject, unitEye, surfaceLengths, surfaceForm, surfaceUv, surfaceDiscs, balance,
         seenFrom;
-    GLint plainColor, planeS, planeT, nearest, tangents;
+    GLint lightCount, plainColor, planeS, planeT, nearest, tangents;
 };
 
 /// Programs by key, compiled once. Throws std::runtime_error with the compiler's log: a shader

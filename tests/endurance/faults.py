@@ -25,9 +25,19 @@ class Load:
 
     def __init__(self, daemon, paths):
         self.daemon, self.paths, self.stopping = daemon, paths, False
-        self.expected = {path: daemon.get(path)[2] for path in paths}
+        self.expected = {path: self.first(path) for path in paths}
         self.statuses, self.wrong, self.slowest = collections.Counter(), [], 0.0
         self.threads = [threading.Thread(target=self.client, args=(i,)) for i in range(CLIENTS)]
+
+    def first(self, path):
+        """The picture without faults; a first look at a scene may compile for seconds, past the
+        deadline."""
+        for _ in range(10):
+            status, headers, body = self.daemon.get(path)
+            if status == 200:
+                return body
+            time.sleep(int(headers.get("Retry-After", 1)))
+        raise RuntimeError(f"{path}: {status} {body[:200]} before any fault")
 
     def __enter__(self):
         for thread in self.threads:

@@ -21,6 +21,13 @@ struct Light {
     vec4 specular;
 };
 layout(std140, binding = 0) uniform Lights { Light lights[LIGHT_COUNT]; };
+#if LIGHT_COUNT > 1
+// LIGHT_COUNT, without the compiler's knowledge: it then unrolls the loop with tests between, in a
+// third of the time that six lights in a row take it, for code that is as fast.
+uniform int lightCount;
+#else
+const int lightCount = 1;
+#endif
 #endif
 
 uniform vec3 materialDiffuse;
@@ -34,7 +41,7 @@ void shade(vec3 position, vec3 normal, out vec3 primary, out vec3 secondary) {
     primary = materialBase;
     secondary = vec3(0.0);
 #if LIGHT_COUNT > 0
-    for (int i = 0; i < LIGHT_COUNT; ++i) {
+    for (int i = 0; i < lightCount; ++i) {
         vec3 toLight = lights[i].position.xyz;
         float strength = 1.0;
 #ifdef POSITIONAL

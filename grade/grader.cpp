@@ -5,6 +5,7 @@
 
 #include "grade/client_area.h"
 #include "grade/compare.h"
+#include "grade/lent_assets.h"
 #include "grade/measures.h"
 #include "grade/scenes.h"
 #include "grade/score.h"
@@ -74,6 +75,20 @@ bool differs(const render::Image& a, const render::Image& b) {
            std::max(3.0, kShare * static_cast<double>(a.pixels.size() / 4));
 }
 
+/// What was handed out stands behind the job's own files; nothing where the rubric lends none.
+std::shared_ptr<const LentAssets> lend(render::Job& job, const Reference& reference,
+                                       const Rubric& rubric) {
+    if (!rubric.lend || !reference.job.assets) return nullptr;
+    if (!job.assets) job.assets = std::make_shared<scene::BundleAssets>();
+    auto lent = std::make_shared<const LentAssets>(job.assets, reference.job.assets);
+    job.assets = lent;
+    return lent;
+}
+
+void append(Diagnostics& to, Diagnostics more) {
+    to.insert(to.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+}
+
 }  // namespace
 
 struct Grader::State {
@@ -110,10 +125,12 @@ struct Grader::State {
     void compare(const Reference& reference, const Subject& submission, const Rubric& rubric,
                  Grade& grade, Findings& findings) {
         render::Job job = submission.job;
+        const std::shared_ptr<const LentAssets> lent = lend(job, reference, rubric);
         job.identity = identityOf(job);
         render::Stopwatch watch;
         auto prepared = std::make_shared<const render::Prepared>(render::prepare(job));
         grade.diagnostics = prepared->diagnostics;
+        if (lent) append(grade.diagnostics, lent->notes(prepared->scene));
         const Tree tree = growTree(prepared, reference.timesS.front(), meshes);
         grade.times.readMs += watch.lapMs();
         const SceneComparison found = compareScenes(

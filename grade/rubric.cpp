@@ -225,6 +225,7 @@ Rubric readRubric(const std::string& text, const std::string& name) {
     reader.list("times", 1, 8, [&](const json& value, const std::string& path) {
         rubric.timesS.push_back(reader.asNumber(value, path, -1e6, 1e6));
     });
+    reader.flag("lend", rubric.lend);
     if (reader.has("views")) rubric.views.clear();
     reader.list("views", 1, 16, [&](const json& value, const std::string& path) {
         rubric.views.push_back(readView({value, path, name}));
@@ -297,6 +298,7 @@ std::string writeRubric(const Rubric& rubric) {
         {"passMark", rubric.passMark},
         {"strictness", rubric.strictness},
         {"picture", picture},
+        {"lend", rubric.lend},
         {"times", nullptr},
         {"views", views},
         {"criteria", criteria},

@@ -63,6 +63,7 @@ struct Rubric {
     bool cropAuto = true;  ///< cuts window frames off screenshots
     bool maskAxes = true;  ///< where a picture is compared with a screenshot
     std::vector<Rectangle> masks;
+    bool lend = true;  ///< the reference's pictures and models to submissions that lack them
     std::vector<Criterion> criteria;
     double perWarning = 0.0;               ///< points
     std::map<std::string, double> byCode;  ///< points for each diagnostic of that code

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <thread>
 #include <vector>
 
@@ -221,6 +222,41 @@ TEST_CASE("a mistake without a place in the document is told like any other") {
     INFO(task.dump());
     REQUIRE(task.contains("grade"));
     CHECK(task.at("grade").at("findings").at(0).at("code") == "light.missing");
+}
+
+TEST_CASE("what was handed out with the task need not be handed in") {
+    freshFolder();
+    const auto textured = [](const std::string& texture) {
+        return replaced(kReference, "<model file=\"box_1_2.3d\"/>",
+                        "<model file=\"box_1_2.3d\"><texture file=\"" + texture +
+                            "\"/></model><model file=\"lid.obj\"/>");
+    };
+    const std::string lid = "v 0 2 0\nv 1 2 0\nv 0 2 1\nf 1 3 2\n";
+    writeFile("task/scene.xml", textured("wood.png"));
+    writeFile("task/lid.obj", lid);
+    writeFile("checks.xml", replaced(kReference, "box_1_2.3d", "sphere_1_4_4.3d"));
+    REQUIRE(run("render checks.xml -o task/wood.png --width 16 --height 16").status == 0);
+    REQUIRE(
+        run("render checks.xml -o other.png --width 16 --height 16 --background white").status ==
+        0);
+    writeFile("class/without.xml", textured("textures/wood.png"));
+    writeFile("class/own/scene.xml", textured("wood.png"));
+    writeFile("class/own/wood.png", readFile("other.png"));
+    REQUIRE(run("grade --reference task class -o out").status == 0);
+    const json report = reportOf("out");
+    CHECK(gradeOf(report, "without.xml").at("points") == 100.0);
+    std::set<std::string> noted;
+    const json without = gradeOf(report, "without.xml").at("tasks").at(0).at("grade");
+    for (const json& one : without.at("diagnostics"))
+        if (one.at("code") == "grade.lent") noted.insert(one.at("message"));
+    CHECK(noted.size() == 2);
+    // Its own file of that name is taken, and it is another picture.
+    CHECK(gradeOf(report, "own").at("points") < 100.0);
+
+    writeFile("strict.json", R"({"lend": false})");
+    REQUIRE(run("grade --reference task class -o strict --rubric strict.json").status == 0);
+    const json refused = gradeOf(reportOf("strict"), "without.xml");
+    CHECK(refused.at("tasks").at(0).at("grade").at("refused") == true);
 }
 
 TEST_CASE("a class is graded, whatever is in it") {

@@ -251,8 +251,10 @@ TEST_CASE("a store that cannot write says so, and keeps nothing of it") {
 }
 
 TEST_CASE("no cut and no flipped bit of a file passes for a scene") {
-    Stored scene{{"", true, Time(std::chrono::seconds(1'000)), 0},
-                 std::make_shared<const scene::Bundle>(bundleOf("<world/>", 40))};
+    Stored scene;
+    scene.entry.listed = true;
+    scene.entry.expires = Time(std::chrono::seconds(1'000));
+    scene.bundle = std::make_shared<const scene::Bundle>(bundleOf("<world/>", 40));
     const std::string file = encodeScene(scene);
     const auto whole = decodeScene(file);
     REQUIRE(whole);

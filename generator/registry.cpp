@@ -157,6 +157,8 @@ double fullTurnOf(const std::vector<std::string>& words) {
     if (entry.surface == nullptr) return 0.0;
     const std::vector<double> levels = levelsOf(call);
     switch (entry.surface(call, scene::UvLayout::face).kind) {
+        case Surface::Kind::turned:
+            return levels.at(0) - 1.0;  // the last copy is upon the first
         case Surface::Kind::ellipsoid:
             return std::min(levels.at(0), 2.0 * levels.at(1));
         case Surface::Kind::torus:
@@ -171,9 +173,11 @@ glm::dvec3 balanceOf(const std::vector<std::string>& words) {
     const Entry& entry = entryOf(*call.shape);
     if (entry.surface == nullptr) return glm::dvec3(1.0);
     const std::vector<double> levels = levelsOf(call);
+    const Surface::Kind kind = entry.surface(call, scene::UvLayout::face).kind;
+    const double slices = kind == Surface::Kind::turned ? levels.at(0) - 1.0 : levels.at(0);
     // The nearest point of a facet to the middle, on the unit circle or sphere.
-    const double across = std::sin(std::numbers::pi / levels.at(0));
-    if (entry.surface(call, scene::UvLayout::face).kind == Surface::Kind::ellipsoid) {
+    const double across = std::sin(std::numbers::pi / slices);
+    if (kind == Surface::Kind::ellipsoid) {
         const double up = std::sin(std::numbers::pi / (2.0 * levels.at(1)));
         const double depth = std::sqrt(std::max(0.0, 1.0 - across * across - up * up));
         return glm::dvec3(2.0 / (1.0 + depth));

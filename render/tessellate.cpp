@@ -25,6 +25,8 @@ double unitDistance(const SeenSurface& seen) {
             return std::abs(glm::length(eye - glm::dvec2(1.0, 0.0)) - form.x);
         case Kind::ring:
             return toSegment({form.x, 0.0}, {1.0, 0.0});
+        case Kind::turned:
+            break;  // its profile is not known here
     }
     return 0.0;
 }
@@ -99,8 +101,9 @@ std::optional<SeenSurface> seenSurface(const generator::Surface& surface,
         return std::nullopt;
     const glm::dvec3 center(viewFromObject[3]);
     const SeenSurface seen{surface, -(glm::inverse(viewFromUnit) * center)};
-    // A ring is flat: no ray is followed.
-    if (surface.kind != generator::Surface::Kind::ring && unitDistance(seen) < kNearest)
+    // A ring is flat, a turned profile's outline is the mesh's: no ray is followed.
+    using Kind = generator::Surface::Kind;
+    if (surface.kind != Kind::ring && surface.kind != Kind::turned && unitDistance(seen) < kNearest)
         return std::nullopt;
     return seen;
 }
@@ -110,7 +113,7 @@ bool needsSurface(const SeenSurface& seen, double fullTurn, bool textured) {
     const Kind kind = seen.surface.kind;
     if (kind == Kind::ring) return textured;  // flat: light alone needs nothing
     if (kind == Kind::frustum && seen.surface.form.y != 0.0) return true;
-    if (kind == Kind::ellipsoid && textured) return true;
+    if (kind == Kind::turned || (kind == Kind::ellipsoid && textured)) return true;
     // Interpolated from 64 divisions, highlights of shininess 12 keep a p99.9 of 2 to 4 levels.
     return fullTurn < 128.0;
 }
@@ -147,7 +150,7 @@ generator::Fineness fineness(const Box& bounds, const glm::dmat4& viewFromObject
 
     generator::Fineness fine{};
     fine.error = std::exp2(std::floor(4.0 * std::log2(errorObject)) / 4.0);
-    if (seen) {
+    if (seen && seen->surface.kind != generator::Surface::Kind::turned) {
         fine.fullTurn = 8.0;
         fine.straightSide = 1.0;
         fine.balanced = true;
@@ -158,6 +161,8 @@ generator::Fineness fineness(const Box& bounds, const glm::dmat4& viewFromObject
         shadingDivisions(sight.shading, radius * focalPx / depth) * std::sqrt(0.25 / sight.errorPx);
     // Coordinates are linear within a triangle: at poles and apexes that shows first.
     if (textured) wish *= 2.0;
+    // A turned profile's pixels know their normals, but not where beside the facet the surface is.
+    if (seen) wish *= 1.25;
     fine.fullTurn = generator::ladder(std::clamp(wish, 8.0, generator::kMostDivisions));
     // Eight carry vertex lighting and normals round an apex; a texture wants them finer.
     fine.straightSide = textured ? fine.fullTurn : std::min(8.0, fine.fullTurn);

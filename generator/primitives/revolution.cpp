@@ -144,6 +144,11 @@ Entry revolutionEntry() {
                 if (!(radius > 0.0)) return std::vector<double>{fineness.fullTurn + 1};
                 // N copies make N - 1 slices.
                 return std::vector<double>{circleDivisions(radius, fineness.error, fineness) + 1};
+            },
+            [](const Call&, scene::UvLayout) {
+                Surface surface{Surface::Kind::turned};
+                surface.turnFromX = true;
+                return surface;
             }};
 }
 

@@ -46,6 +46,7 @@ void defineSurface(const generator::Surface& surface, std::string& defines) {
     defines += surface.kind == Kind::ellipsoid ? "#define SURFACE_ELLIPSOID\n"
                : surface.kind == Kind::frustum ? "#define SURFACE_FRUSTUM\n"
                : surface.kind == Kind::torus   ? "#define SURFACE_TORUS\n"
+               : surface.kind == Kind::turned  ? "#define SURFACE_TURNED\n"
                                                : "#define SURFACE_RING\n";
     if (surface.turnFromX) defines += "#define SURFACE_TURN_FROM_X\n";
     if (surface.discUv) defines += "#define SURFACE_DISC_UV\n";

@@ -26,6 +26,9 @@ out vec3 unitPosition;
 out vec3 unitRay;
 #if defined(SURFACE_FRUSTUM) || defined(SURFACE_RING)
 flat out float cap;
+#elif defined(SURFACE_TURNED)
+COVERED out vec2 profileNormal;
+COVERED out vec3 unitCovered;
 #endif
 #endif
 uniform mat4 clipFromView;
@@ -98,6 +101,11 @@ void main() {
 #endif
 #if defined(SURFACE_FRUSTUM) || defined(SURFACE_RING)
     cap = normalObject.x == 0.0 && normalObject.z == 0.0 ? normalObject.y : 0.0;
+#elif defined(SURFACE_TURNED)
+    // On the axis the coordinates alone say where the vertex's slice is.
+    float turn = 6.28318530717959 * uvIn.x;
+    profileNormal = vec2(dot(normalObject.xz, vec2(cos(turn), -sin(turn))), normalObject.y);
+    unitCovered = unitPosition;
 #endif
 #elif defined(PHONG) || defined(LAYER_NORMAL)
     normalView = normalFromObject * normalObject;

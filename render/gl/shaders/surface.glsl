@@ -7,6 +7,11 @@ in vec3 unitRay;       // from the eye to there
 #if defined(SURFACE_FRUSTUM) || defined(SURFACE_RING)
 flat in float cap;  // of the flat parts: their normal's y; 0: the side
 #endif
+#ifdef SURFACE_TURNED
+// Within a facet only the turn is not that of the surface: what the profile says is linear there.
+COVERED in vec2 profileNormal;  // away from Y, along it
+COVERED in vec3 unitCovered;
+#endif
 // From unit gradients.
 #ifdef INSTANCED
 flat in mat3 normalFromObject;
@@ -46,7 +51,7 @@ void expand(vec3 q, vec3 d, out float a, out float b, out float c) {
 
 // How far along the ray the surface is, in lengths of the ray.
 float toSurface() {
-#ifdef SURFACE_RING
+#if defined(SURFACE_RING) || defined(SURFACE_TURNED)
     return 0.0;
 #else
 #ifdef SURFACE_FRUSTUM
@@ -76,6 +81,9 @@ vec3 surfaceGradient(vec3 q) {
 #elif defined(SURFACE_TORUS)
     float radius = length(q.xz);
     return vec3(q.x - q.x / radius, q.y, q.z - q.z / radius);
+#elif defined(SURFACE_TURNED)
+    vec2 outwards = unitCovered.xz / max(length(unitCovered.xz), 1e-20);
+    return vec3(profileNormal.x * outwards.x, profileNormal.y, profileNormal.x * outwards.y);
 #else
     return vec3(0.0, cap, 0.0);
 #endif
@@ -109,6 +117,8 @@ vec2 surfaceCoordinates(vec3 q, vec2 near) {
     float share = q.y;
 #elif defined(SURFACE_TORUS)
     float share = atan(q.y, radius - 1.0) / kTurn;
+#elif defined(SURFACE_TURNED)
+    float share = near.y;
 #else
     float share = (radius - surfaceForm.x) / (1.0 - surfaceForm.x);
 #endif
@@ -121,6 +131,7 @@ vec2 surfaceCoordinates(vec3 q, vec2 near) {
 #endif
 }
 
+#ifndef SURFACE_TURNED
 // The coordinates' change as q, on the surface, moves by `step`.
 vec2 coordinateChange(vec3 q, vec3 step) {
 #ifdef SURFACE_DISC_UV
@@ -138,6 +149,7 @@ vec2 coordinateChange(vec3 q, vec3 step) {
     return surfaceUv.yw * vec2(turnChange(q, step), share);
 #endif
 }
+#endif
 
 // The neighbouring ray meets the tangent plane at: `aside`, the change at the triangle of what is
 // `reach` from the eye, less what lies along the ray. Space of `gradient`.
@@ -152,7 +164,12 @@ vec4 sampleSurface(vec3 q, vec2 near, vec3 right, vec3 up) {
 #ifdef SURFACE_FRUSTUM
     if (cap != 0.0) return filtered(at, balance * CHANGE_RIGHT(near), balance * CHANGE_UP(near));
 #endif
+#ifdef SURFACE_TURNED
+    return filtered(at, vec2(turnChange(q, right), CHANGE_RIGHT(near.y)),
+                    vec2(turnChange(q, up), CHANGE_UP(near.y)));
+#else
     return filtered(at, coordinateChange(q, right), coordinateChange(q, up));
+#endif
 }
 #endif
 #endif

@@ -6,9 +6,13 @@ namespace {
 // One picture must not sweep out all others.
 constexpr std::size_t kLeastPictures = 4;
 
-std::size_t costOf(const http::Response& response) {
-    std::size_t bytes = response.body.size() + sizeof response;
-    for (const auto& [name, value] : response.headers) bytes += name.size() + value.size();
+/// What it takes of memory, with what the allocator and the map add: small pictures are no larger
+/// than that.
+std::size_t costOf(const std::string& tag, const http::Response& response) {
+    constexpr std::size_t kBlock = 32, kBlocks = 8;
+    std::size_t bytes = response.body.size() + sizeof response + 2 * tag.size() + kBlocks * kBlock;
+    for (const auto& field : response.headers)
+        bytes += sizeof field + field.first.size() + field.second.size() + kBlock;
     return bytes;
 }
 
@@ -26,7 +30,7 @@ std::optional<http::Response> PictureCache::find(const std::string& tag) {
 }
 
 void PictureCache::put(const std::string& tag, const http::Response& response) {
-    const std::size_t cost = costOf(response);
+    const std::size_t cost = costOf(tag, response);
     if (cost > most_ / kLeastPictures) return;
     auto kept = std::make_shared<http::Response>(response);
     kept->shared = std::make_shared<const std::string>(std::move(kept->body));

@@ -70,16 +70,16 @@ TEST_CASE("a client is its socket's peer unless our own proxy speaks for it") {
 }
 
 TEST_CASE("pictures are kept within their bytes, the least used go first") {
-    PictureCache cache(10'000);
-    cache.put("a", picture(2'000, 'a'));
-    cache.put("b", picture(2'000, 'b'));
-    cache.put("c", picture(2'000, 'c'));
+    PictureCache cache(100'000);
+    cache.put("a", picture(20'000, 'a'));
+    cache.put("b", picture(20'000, 'b'));
+    cache.put("c", picture(20'000, 'c'));
     REQUIRE(cache.find("a"));
-    for (const char* tag : {"d", "e"}) cache.put(tag, picture(2'000, 'x'));
+    for (const char* tag : {"d", "e"}) cache.put(tag, picture(20'000, 'x'));
     CHECK(cache.find("a"));
     CHECK_FALSE(cache.find("b"));
-    CHECK(*cache.find("e")->shared == std::string(2'000, 'x'));
-    cache.put("big", picture(9'000, 'y'));  // it would sweep out all others
+    CHECK(*cache.find("e")->shared == std::string(20'000, 'x'));
+    cache.put("big", picture(90'000, 'y'));  // it would sweep out all others
     CHECK_FALSE(cache.find("big"));
     CHECK(cache.find("a"));
     CHECK(cache.counts().hits == 4);

@@ -22,8 +22,8 @@ void addSeconds(CLI::App& command, const std::string& name, std::chrono::millise
 }
 
 int run(const server::ServeOptions& options) {
-    // Pictures are made by one thread and dropped by another: with a heap for each thread the holes
-    // in all of them add up to half as much memory again. The requests are no slower for it.
+    // Pictures are made by one thread and dropped by another: with a heap for each thread, there
+    // are holes in all of them. Answers from the cache are no slower for it.
     ::mallopt(M_ARENA_MAX, 2);
     try {
         return server::serve(options) == 0 ? kDone : kInternal;

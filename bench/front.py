@@ -73,6 +73,14 @@ def order(data):
     for (samples, error), flip in reversed(kept):
         if not chain or (samples <= chain[-1][0][0] and error >= chain[-1][0][1]):
             chain.append(((samples, error), flip))
+    # Where noise makes a finer error seem the cheaper of two nearly equal ones, the chain would end
+    # before the fewest samples.
+    means = {key: (cost, flip) for cost, flip, key in points}
+    for samples in sorted(SAMPLES, reverse=True):
+        (last, error), _ = chain[-1]
+        if samples < last and (samples, error) in means:
+            if means[samples, error][0] < means[last, error][0]:
+                chain.append(((samples, error), means[samples, error][1]))
     return chain
 
 

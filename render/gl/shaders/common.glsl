@@ -22,8 +22,8 @@ struct Light {
 };
 layout(std140, binding = 0) uniform Lights { Light lights[LIGHT_COUNT]; };
 #if LIGHT_COUNT > 1
-// LIGHT_COUNT, without the compiler's knowledge: it then unrolls the loop with tests between, in a
-// third of the time that six lights in a row take it, for code that is as fast.
+// LIGHT_COUNT, without the compiler's knowledge: it then unrolls the loop with tests between, which
+// takes it 2 s where six lights in a row take 5 s, for frames 1.08 times as long; of four, 1.00.
 uniform int lightCount;
 #else
 const int lightCount = 1;

@@ -12,7 +12,10 @@
 
 #include "bench/bare_loop.h"
 #include "bench/measure.h"
-#include "render/image_file.h"
+#include "image/image_file.h"
+#include "render/gl/context.h"
+#include "render/plan/instances.h"
+#include "render/plan/plan.h"
 #include "render/prepare.h"
 
 using namespace farol;
@@ -60,7 +63,7 @@ class Side {
         const std::string first = frame();
         if (!save.empty()) std::ofstream(save, std::ios::binary) << first;
         for (char order = 0; read(in, &order, 1) == 1;) {
-            bench::Stopwatch watch;
+            farol::Stopwatch watch;
             frame();
             const double ms = watch.lapMs();
             if (write(out, &ms, sizeof ms) != sizeof ms) return 1;
@@ -87,12 +90,16 @@ int main(int count, char** arguments) try {
         const render::Prepared prepared = render::prepare(job);
         render::MeshLibrary meshes(std::size_t{256} << 20);
         const render::FramePlan plan =
-            render::plan(prepared.scene, job.options, *prepared.assets, meshes);
-        std::vector<render::Image> textures;
+            render::plan(prepared.scene,
+                         render::place(prepared.scene, job.options.timeS, job.options.curves,
+                                       *prepared.assets, meshes),
+                         job.options, *prepared.assets, meshes,
+                         render::gl::createContext(render::gl::Backend::osmesa)->facts());
+        std::vector<image::Image> textures;
         for (const render::TextureRef& ref : plan.textures) {
             if (ref.chess || ref.cube) throw std::runtime_error("the bare loop takes pictures");
             textures.push_back(
-                render::decodeImage(prepared.assets->read(ref.path).value_or(""), ref.path));
+                image::decodeImage(prepared.assets->read(ref.path).value_or(""), ref.path));
         }
         auto loop = std::make_shared<bench::BareLoop>(plan, textures);
         return [loop] { return loop->frame(); };

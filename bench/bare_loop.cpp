@@ -8,8 +8,6 @@
 #include <glm/gtc/type_ptr.hpp>
 #include <stdexcept>
 
-#include "render/camera.h"
-
 namespace farol::bench {
 namespace {
 
@@ -202,8 +200,8 @@ struct BareLoop::State {
         GLuint buffer = 0;
         gl.GenRenderbuffers(1, &buffer);
         gl.BindRenderbuffer(GL_RENDERBUFFER, buffer);
-        gl.RenderbufferStorageMultisample(GL_RENDERBUFFER, plan.samples, format, plan.width,
-                                          plan.height);
+        gl.RenderbufferStorageMultisample(GL_RENDERBUFFER, plan.style.samples, format,
+                                          plan.view.size.x, plan.view.size.y);
         gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, point, GL_RENDERBUFFER, buffer);
     }
     GLuint texture(int width, int height, const std::uint8_t* rgba) const {
@@ -217,11 +215,11 @@ struct BareLoop::State {
         return name;
     }
     GLuint array(const generator::Mesh& mesh) const {
-        std::vector<Vertex> vertices(mesh.positions.size());
+        std::vector<Vertex> vertices(mesh.positions().size());
         for (std::size_t i = 0; i < vertices.size(); ++i) {
-            vertices[i].position = mesh.positions[i];
-            if (!mesh.normals.empty()) vertices[i].normal = mesh.normals[i];
-            if (!mesh.uvs.empty()) vertices[i].uv = mesh.uvs[i];
+            vertices[i].position = mesh.positions()[i];
+            if (!mesh.normals().empty()) vertices[i].normal = mesh.normals()[i];
+            if (!mesh.uvs().empty()) vertices[i].uv = mesh.uvs()[i];
         }
         GLuint name = 0, buffers[2] = {0, 0};
         gl.GenVertexArrays(1, &name);
@@ -231,8 +229,8 @@ struct BareLoop::State {
         gl.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices.size() * sizeof(Vertex)),
                       vertices.data(), GL_STATIC_DRAW);
         gl.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffers[1]);
-        gl.BufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(mesh.indices.size() * 4),
-                      mesh.indices.data(), GL_STATIC_DRAW);
+        gl.BufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(mesh.indices().size() * 4),
+                      mesh.indices().data(), GL_STATIC_DRAW);
         gl.VertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(Vertex), offset(0));
         gl.VertexAttribPointer(1, 3, GL_FLOAT, GL_FALSE, sizeof(Vertex), offset(12));
         gl.VertexAttribPointer(2, 2, GL_FLOAT, GL_FALSE, sizeof(Vertex), offset(24));
@@ -242,7 +240,7 @@ struct BareLoop::State {
     GLint at(const char* name) const { return gl.GetUniformLocation(program, name); }
 };
 
-BareLoop::BareLoop(const render::FramePlan& plan, const std::vector<render::Image>& textures)
+BareLoop::BareLoop(const render::FramePlan& plan, const std::vector<image::Image>& textures)
     : state_(new State) {
     State& s = *state_;
     s.plan = plan;
@@ -259,9 +257,10 @@ BareLoop::BareLoop(const render::FramePlan& plan, const std::vector<render::Imag
                               0};
     s.context = OSMesaCreateContextAttribs(attributes, nullptr);
     if (!s.context) throw std::runtime_error("OSMesa gives no GL 4.5 core context");
-    s.window.resize(static_cast<std::size_t>(plan.width) * static_cast<std::size_t>(plan.height) *
-                    4);
-    OSMesaMakeCurrent(s.context, s.window.data(), GL_UNSIGNED_BYTE, plan.width, plan.height);
+    s.window.resize(static_cast<std::size_t>(plan.view.size.x) *
+                    static_cast<std::size_t>(plan.view.size.y) * 4);
+    OSMesaMakeCurrent(s.context, s.window.data(), GL_UNSIGNED_BYTE, plan.view.size.x,
+                      plan.view.size.y);
     OSMesaPixelStore(OSMESA_Y_UP, 0);
     s.gl.load();
     const Gl& gl = s.gl;
@@ -272,7 +271,7 @@ BareLoop::BareLoop(const render::FramePlan& plan, const std::vector<render::Imag
     GLint linked = 0;
     gl.GetProgramiv(s.program, GL_LINK_STATUS, &linked);
     if (!linked) throw std::runtime_error("the bare loop's shader does not link");
-    if (plan.samples > 1) {
+    if (plan.style.samples > 1) {
         gl.GenFramebuffers(1, &s.multisampled);
         gl.BindFramebuffer(GL_FRAMEBUFFER, s.multisampled);
         s.attach(GL_COLOR_ATTACHMENT0, GL_RGBA8);
@@ -280,9 +279,9 @@ BareLoop::BareLoop(const render::FramePlan& plan, const std::vector<render::Imag
     }
     const std::uint8_t white[] = {255, 255, 255, 255};
     s.white = s.texture(1, 1, white);
-    for (const render::Image& image : textures) {
+    for (const image::Image& image : textures) {
         // Bottom row first, as texture coordinates run.
-        render::Image flipped = image;
+        image::Image flipped = image;
         const std::size_t stride = static_cast<std::size_t>(image.width) * 4;
         for (int y = 0; y < image.height; ++y)
             std::copy_n(&image.pixels[static_cast<std::size_t>(y) * stride], stride,
@@ -316,12 +315,11 @@ std::string BareLoop::frame() {
     const Gl& gl = s.gl;
     const render::FramePlan& plan = s.plan;
     gl.BindFramebuffer(GL_FRAMEBUFFER, s.multisampled);
-    gl.Viewport(0, 0, plan.width, plan.height);
-    gl.ClearColor(plan.background.r, plan.background.g, plan.background.b, 1.0F);
+    gl.Viewport(0, 0, plan.view.size.x, plan.view.size.y);
+    gl.ClearColor(plan.style.background.r, plan.style.background.g, plan.style.background.b, 1.0F);
     gl.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     gl.UseProgram(s.program);
-    const glm::mat4 clip(render::clipFromView(
-        plan.camera, static_cast<double>(plan.width) / plan.height, glm::dvec2(0.0)));
+    const glm::mat4 clip(plan.view.clip);
     gl.UniformMatrix4fv(s.at("clip"), 1, GL_FALSE, glm::value_ptr(clip));
     gl.Uniform1i(s.at("lightCount"), static_cast<GLint>(plan.lightSets[0].size()));
     gl.Uniform3fv(s.at("globalAmbient"), 1, glm::value_ptr(plan.globalAmbient));
@@ -339,18 +337,18 @@ std::string BareLoop::frame() {
                                           : s.textures[static_cast<std::size_t>(item.texture)]);
         gl.FrontFace(item.mirrored ? GL_CW : GL_CCW);
         gl.BindVertexArray(s.arrays[i]);
-        gl.DrawElements(GL_TRIANGLES, static_cast<GLsizei>(item.mesh->mesh.indices.size()),
+        gl.DrawElements(GL_TRIANGLES, static_cast<GLsizei>(item.mesh->mesh.indices().size()),
                         GL_UNSIGNED_INT, nullptr);
     }
-    if (plan.samples > 1) {
+    if (plan.style.samples > 1) {
         gl.BindFramebuffer(GL_READ_FRAMEBUFFER, s.multisampled);
         gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
-        gl.BlitFramebuffer(0, 0, plan.width, plan.height, 0, 0, plan.width, plan.height,
-                           GL_COLOR_BUFFER_BIT, GL_NEAREST);
+        gl.BlitFramebuffer(0, 0, plan.view.size.x, plan.view.size.y, 0, 0, plan.view.size.x,
+                           plan.view.size.y, GL_COLOR_BUFFER_BIT, GL_NEAREST);
     }
     gl.Finish();
     if (gl.GetError() != GL_NO_ERROR) throw std::runtime_error("GL error in the bare loop");
-    return bareEncode(s.window, plan.width, plan.height);
+    return bareEncode(s.window, plan.view.size.x, plan.view.size.y);
 }
 
 }  // namespace farol::bench

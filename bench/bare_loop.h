@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "render/image.h"
-#include "render/plan.h"
+#include "image/image.h"
+#include "render/plan/frame_plan.h"
 
 /// The yardstick of frame speed: what one writes in an afternoon with OSMesa and libdeflate. One
 /// general per-pixel shader (all light types, specular, texture), everything uploaded once, one
@@ -19,7 +19,7 @@ std::string bareEncode(const std::vector<std::uint8_t>& rgba, int width, int hei
 class BareLoop {
   public:
     /// textures[i] is the decoded picture of plan.textures[i].
-    BareLoop(const render::FramePlan& plan, const std::vector<render::Image>& textures);
+    BareLoop(const render::FramePlan& plan, const std::vector<image::Image>& textures);
     ~BareLoop();
     BareLoop(const BareLoop&) = delete;
     BareLoop& operator=(const BareLoop&) = delete;

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """What a picture costs by scene and size: processor seconds of the service and its worker, warm, each
 picture from another side: capacity.py BINARY [PICTURES each]. For the capacity model in
-docs/operations.md. Processor time, so that a busy machine tells nearly the same."""
+docs/benchmarks/service.md. Processor time, so that a busy machine tells nearly the same."""
 import os
 import pathlib
 import sys

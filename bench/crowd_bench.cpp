@@ -39,12 +39,12 @@ int main(int count, char** arguments) try {
     const bench::Arguments given = bench::Arguments::parse(count + 1, words.data());
     render::Renderer renderer;
     const render::Job alone = crowd(0, given.options);
-    render::Image want, have;
+    image::Image want, have;
     const render::Stats few = renderer.draw(alone, want).stats;
     if (few.instances != kSeen || few.culled != 0) throw std::runtime_error("not all are in view");
     for (const int total : {100, 1'000, 10'000, 100'000}) {
         const render::Job job = crowd(total - kSeen, given.options);
-        bench::Stopwatch watch;
+        farol::Stopwatch watch;
         const render::Stats stats = renderer.draw(job, have).stats;
         const double firstMs = watch.lapMs();
         if (have.pixels != want.pixels) throw std::runtime_error("the pictures differ");

@@ -10,14 +10,14 @@
 
 #include "bench/bare_loop.h"
 #include "bench/measure.h"
-#include "render/encode.h"
+#include "image/format.h"
 
 using namespace farol;
 
 namespace {
 
 /// RGB as libpng writes it; `filters` 0 leaves its heuristic on.
-std::string libpng(const render::Image& image, int level, int filters) {
+std::string libpng(const image::Image& image, int level, int filters) {
     std::string out;
     png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
     png_infop info = png ? png_create_info_struct(png) : nullptr;
@@ -48,7 +48,7 @@ std::string libpng(const render::Image& image, int level, int filters) {
 
 struct Encoder {
     std::string name;
-    std::function<std::string(const render::Image&)> encode;
+    std::function<std::string(const image::Image&)> encode;
     std::vector<double> ms = {};
     std::size_t bytes = 0;
 };
@@ -58,29 +58,27 @@ struct Encoder {
 int main(int count, char** arguments) try {
     const bench::Arguments given = bench::Arguments::parse(count, arguments);
     const render::Job job = bench::jobOf(given);
-    render::Image image;
+    image::Image image;
     render::Renderer().draw(job, image);
     std::vector<Encoder> all;
-    all.push_back({"farol png", render::encodePng});
-    all.push_back({"libdeflate 1 Sub", [](const render::Image& i) {
+    all.push_back({"farol png", image::encodePng});
+    all.push_back({"libdeflate 1 Sub", [](const image::Image& i) {
                        return bench::bareEncode(i.pixels, i.width, i.height);
                    }});
     for (const int level : {1, 3, 6, 9})
         all.push_back({"libpng " + std::to_string(level),
-                       [level](const render::Image& i) { return libpng(i, level, 0); }});
+                       [level](const image::Image& i) { return libpng(i, level, 0); }});
     all.push_back(
-        {"libpng 1 Sub", [](const render::Image& i) { return libpng(i, 1, PNG_FILTER_SUB); }});
+        {"libpng 1 Sub", [](const image::Image& i) { return libpng(i, 1, PNG_FILTER_SUB); }});
     for (const int quality : {50, 75, 90, 100}) {
-        all.push_back({"jpeg " + std::to_string(quality), [quality](const render::Image& i) {
-                           return render::encodeJpeg(i, quality);
-                       }});
-        all.push_back({"webp " + std::to_string(quality), [quality](const render::Image& i) {
-                           return render::encodeWebp(i, quality);
-                       }});
+        all.push_back({"jpeg " + std::to_string(quality),
+                       [quality](const image::Image& i) { return image::encodeJpeg(i, quality); }});
+        all.push_back({"webp " + std::to_string(quality),
+                       [quality](const image::Image& i) { return image::encodeWebp(i, quality); }});
     }
     for (int run = 0; run < given.runs; ++run)
         for (Encoder& one : all) {
-            bench::Stopwatch watch;
+            farol::Stopwatch watch;
             one.bytes = one.encode(image).size();
             one.ms.push_back(watch.lapMs());
         }

@@ -10,12 +10,12 @@ int main(int count, char** arguments) try {
     const bench::Arguments given = bench::Arguments::parse(count, arguments);
     const render::Job job = bench::jobOf(given);
     render::Renderer renderer;
-    bench::Stopwatch first;
+    farol::Stopwatch first;
     render::Picture picture = renderer.render(job);  // warms shaders, meshes and textures
     const double firstMs = first.lapMs();
     std::vector<double> parse, geometry, draw, read, encode, total;
     for (int i = 0; i < given.runs; ++i) {
-        bench::Stopwatch watch;
+        farol::Stopwatch watch;
         picture = renderer.render(job);
         total.push_back(watch.lapMs());
         parse.push_back(picture.times.parseMs);

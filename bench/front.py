@@ -1,4 +1,4 @@
-"""The front of budget_ms, fitted to bench/results/quality.json: render/quality_front.inc.
+"""The front of budget_ms, fitted to bench/results/quality.json: render/plan/quality_front.inc.
 
 A frame's CPU time on all cores is modelled as fixed + pixels * fill(samples) + triangles *
 cost(samples), by least squares of relative errors with nothing negative. The order of candidates is

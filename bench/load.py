@@ -136,7 +136,7 @@ def overload(daemon, seconds, step):
 
 
 def run(bench, progress):
-    """Rows of all loads; prints them as they come, as the rows of a table for docs/operations.md."""
+    """Rows of all loads; prints them as they come, as the rows of a table for docs/benchmarks/service.md."""
     if not shutil.which("wrk"):
         progress.say("skipped: load: wrk is not installed")
         return None

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "core/stopwatch.h"
 #include "render/renderer.h"
-#include "render/stopwatch.h"
 
 /// What the measuring programs share: arguments, the job, medians.
 namespace farol::bench {
@@ -20,8 +20,6 @@ inline double median(std::vector<double> values) {
     std::sort(values.begin(), values.end());
     return values.empty() ? 0.0 : values[values.size() / 2];
 }
-
-using render::Stopwatch;
 
 /// SCENE.xml [--runs N] [--json] [--save STEM] [name=value ...]
 struct Arguments {

@@ -1,5 +1,5 @@
 // Time against error: a scene at many settings, turn by turn in one process, each measured against
-// the ray caster of tests/reference:
+// the ray caster of tests/support/ray_caster:
 //   bench_quality SCENE.xml|mixed [--runs N] [--quick] [--cap N] [name=value ...]
 // A line of JSON for the scene, then one a setting. "mixed": 1,000 spheres, cones, cylinders, tori
 // and ellipsoids. Options width and height are the picture's; what a setting holds wins.
@@ -7,8 +7,8 @@
 #include <ctime>
 #include <nlohmann/json.hpp>
 
-#include "bench/exact.h"
 #include "bench/measure.h"
+#include "tests/support/exact.h"
 
 using namespace farol;
 using nlohmann::json;
@@ -25,12 +25,9 @@ struct Setting {
     json toJson() const {
         json out{{"divisions", divisions},
                  {"error", errorPx},
-                 {"shading", shading == scene::Shading::phong ? "phong" : "gouraud"},
+                 {"shading", scene::kShadingWords[shading]},
                  {"aa", samples}};
-        if (filter)
-            out["filter"] = *filter == scene::Filter::nearest  ? "nearest"
-                            : *filter == scene::Filter::linear ? "linear"
-                                                               : "anisotropic";
+        if (filter) out["filter"] = scene::kFilterWords[*filter];
         return out;
     }
 };
@@ -114,7 +111,7 @@ int main(int count, char** arguments) try {
     const bench::Subject subject = bench::readSubject(job.xml, job.assets);
     const int width = given.options.width.value_or(320),
               height = given.options.height.value_or(240);
-    bench::Stopwatch watch;
+    farol::Stopwatch watch;
     const bench::Exact exact = bench::exactOf(subject, width, height, cap);
     const auto foundObjects = std::count_if(exact.centers.id.begin(), exact.centers.id.end(),
                                             [](int id) { return id != 0; });
@@ -147,7 +144,7 @@ int main(int count, char** arguments) try {
         one.job.options.shading = setting.shading;
         one.job.options.samples = setting.samples;
         one.job.options.filter = setting.filter;
-        render::Image image;
+        image::Image image;
         watch.lapMs();
         one.stats = renderer.draw(one.job, image).stats;
         if (setting.divisions > coarse) {
@@ -167,7 +164,7 @@ int main(int count, char** arguments) try {
         rows.push_back(std::move(row));
         runners.push_back(std::move(one));
     }
-    render::Image image;
+    image::Image image;
     for (int run = 0; run < given.runs; ++run)
         for (Runner& one : runners) {
             watch.lapMs();

@@ -3,11 +3,12 @@
 #include <optional>
 #include <string>
 
+#include "cli/confine.h"
 #include "render/renderer.h"
 
 namespace farol::cli {
 
-/// What --frames and --fps ask for; both unset: a still picture.
+/// Values of --frames and --fps; both unset: a still image.
 struct AnimationFlags {
     std::optional<int> frames;
     std::optional<double> fps;
@@ -21,13 +22,14 @@ struct Schedule {
 };
 
 /// Given one of --frames and --fps, the other follows from the scene's time range or loop, so that
-/// the last frame leads into the first; given both, they are taken as they are. `timeS` is added to
+/// the last frame leads into the first; given both, they are used unchanged. `timeS` is added to
 /// every moment. Throws UsageError when the loop is needed and the scene has none.
 Schedule schedule(const AnimationFlags& flags, const render::SceneReport& report, double timeS);
 
-/// Renders all frames into `output`: an animated PNG, or, with a %d (%04d) in the name, one picture
-/// a frame. Shows progress on stderr where that is a terminal. Returns the last picture's facts.
-render::Picture renderAnimation(render::Job job, const Schedule& schedule,
-                                const std::string& output);
+/// Renders all frames into the first output, whose path this is: an animated PNG, or, with a %d
+/// (%04d) in it, one picture a frame. Shows progress on stderr where that is a terminal. Returns
+/// the last picture's facts.
+render::Picture renderAnimation(render::Job job, const Schedule& schedule, const std::string& path,
+                                Outputs& outputs);
 
 }  // namespace farol::cli

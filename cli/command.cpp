@@ -1,23 +1,45 @@
 #include "cli/command.h"
 
-#include <charconv>
+#include <exception>
 #include <sstream>
+
+#include "cli/files.h"
+#include "cli/messages.h"
+#include "core/number.h"
 
 namespace farol::cli {
 
+int runGuarded(const std::function<int()>& work, Report& report) {
+    try {
+        return work();
+    } catch (const UsageError& error) {
+        report.fail(error.diagnostic());
+        return kUsage;
+    } catch (const Error& error) {
+        report.add(error.diagnostics());
+        return error.code().rfind("option.", 0) == 0 ? kUsage : kInputFault;
+    } catch (const OutputError& error) {
+        report.fail(error.message());
+        return kInternal;
+    } catch (const std::exception& error) {
+        report.fail(message<"internal/reason">("reason"_arg = uncut(error.what())));
+        return kInternal;
+    }
+}
+
 void takesNumber(CLI::Option* option, double min, double max) {
-    std::ostringstream range;
-    range.precision(10);
-    range << min << ".." << max;
-    const auto check = [min, max, range = range.str()](const std::string& text) -> std::string {
-        double value = 0.0;
-        const char* end = text.data() + text.size();
-        const auto [at, error] = std::from_chars(text.data(), end, value);
-        const bool inside = value >= min && value <= max;  // false for NaN
-        if (error == std::errc() && at == end && inside) return "";
-        return text + " is not a number in " + range;
+    const auto text = [](double value) {
+        std::ostringstream out;
+        out.precision(10);
+        out << value;
+        return out.str();
     };
-    option->check(check)->type_name(range.str())->capture_default_str();
+    const auto check = [=, range = text(min) + " to " + text(max)](const std::string& word) {
+        const auto value = parseExact<double>(word);
+        if (value && *value >= min && *value <= max) return std::string();
+        return word + " is not a number in " + range;
+    };
+    option->check(check)->type_name(text(min) + ".." + text(max))->capture_default_str();
 }
 
 }  // namespace farol::cli

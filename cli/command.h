@@ -20,15 +20,18 @@ enum ExitCode {
 /// The command line is at fault: unknown shape, an argument out of range. Becomes kUsage.
 class UsageError : public std::runtime_error {
   public:
-    explicit UsageError(const std::string& message, std::string code = "usage")
-        : std::runtime_error(message), code_(std::move(code)) {}
-    const std::string& code() const { return code_; }
+    explicit UsageError(Message message)
+        : UsageError(diagnosticOf(Severity::error, std::move(message))) {}
+    /// An input's fault where the input is an argument of the command line.
+    explicit UsageError(Diagnostic fault)
+        : std::runtime_error(fault.message), diagnostic_(std::move(fault)) {}
+    const Diagnostic& diagnostic() const { return diagnostic_; }
 
   private:
-    std::string code_;
+    Diagnostic diagnostic_;
 };
 
-/// What the chosen subcommand does once its flags are read; returns the exit code.
+/// Runs the chosen subcommand after its flags are read; returns the exit code.
 using Action = std::function<int(Report&)>;
 
 /// Each adds its subcommand to `root`; where the user chose it, `action` is set after parsing.
@@ -39,15 +42,22 @@ void addValidate(CLI::App& root, Action& action);
 void addCompare(CLI::App& root, Action& action);
 void addGrade(CLI::App& root, Action& action);
 void addHealth(CLI::App& root, Action& action);
+void addSchema(CLI::App& root, Action& action);
 void addVersion(CLI::App& root, Action& action);
-/// What `serve` starts; not in the help.
+void addCompletion(CLI::App& root, Action& action);
+/// Prints man pages, for the install rules; not in the help.
+void addManual(CLI::App& root, Action& action);
+/// Internal: started by `serve`; not in the help.
 void addWorker(CLI::App& root, Action& action);
+
+/// Returns what `work` returns; an exception becomes its exit code and an entry of the report.
+int runGuarded(const std::function<int()>& work, Report& report);
 
 /// Lets the option take finite numbers from min to max (CLI::Range lets NaN pass), and its help
 /// say so, with the default.
 void takesNumber(CLI::Option* option, double min, double max);
 
-/// "farol 0.1.0", then the renderer's own line.
+/// "farol 0.2.0", then the renderer's own line.
 std::string versionLine();
 
 }  // namespace farol::cli

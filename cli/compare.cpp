@@ -1,14 +1,17 @@
-#include "grade/compare.h"
+#include "grade/images/compare.h"
 
 #include <iostream>
 #include <memory>
 #include <vector>
 
 #include "cli/command.h"
+#include "cli/confine.h"
 #include "cli/files.h"
-#include "grade/flip.h"
-#include "render/encode.h"
-#include "render/image_file.h"
+#include "cli/messages.h"
+#include "core/text.h"
+#include "grade/images/flip.h"
+#include "image/format.h"
+#include "image/image_file.h"
 
 namespace farol::cli {
 namespace {
@@ -17,6 +20,7 @@ struct Flags {
     std::string first, second, crop, diff, heat;
     std::vector<std::string> masks;
     bool maskAxes = false;
+    ConfinementFlags confinement;
 };
 
 /// A fault in the flag is one of the command line.
@@ -24,22 +28,24 @@ grade::Rectangle parseRectangle(const std::string& flag, const std::string& text
     try {
         return grade::readRectangle(text, flag);
     } catch (const Error& error) {
-        throw UsageError(error.what());
+        throw UsageError(error.primary());
     }
 }
 
-render::Image open(const std::string& path, const std::string& crop) {
-    const render::Image image = render::decodeImage(readInput(path), path, {path, 0, 0});
+image::Image decode(const std::string& bytes, const std::string& path, const std::string& crop) {
+    const image::Image image = image::decodeImage(bytes, path, {path, 0, 0});
     try {
         return grade::cut(image, crop);
     } catch (const Error& error) {
-        throw Error(error.code(), error.what(), {path, 0, 0});
+        Diagnostic fault = error.primary();
+        fault.where = {path, 0, 0};
+        throw Error(Diagnostics{fault});
     }
 }
 
 std::string requirePng(const std::string& flag, const std::string& path) {
-    if (!path.empty() && endingOf(path) != "png")
-        throw UsageError(flag + " " + path + ": must end with .png");
+    if (!path.empty() && fileEnding(path) != "png")
+        throw UsageError(message<"usage/compare-png">("flag"_arg = flag, "path"_arg = path));
     return path;
 }
 
@@ -71,26 +77,34 @@ void print(const grade::Comparison& found) {
         std::cout << number(100.0 * found.counted) << " % of the pixels count" << std::endl;
 }
 
+int compare(const Flags& flags, const image::Image& first, const image::Image& second,
+            const std::vector<grade::Rectangle>& hidden, Report& report, Outputs& outputs) {
+    grade::requireSameSize(first.width, first.height, second.width, second.height);
+    grade::Mask mask;
+    grade::hide(mask, first.width, first.height, hidden);
+    if (flags.maskAxes) grade::hideAxes(mask, first, second);
+    const auto [found, shown] = grade::compare(first, second, mask);
+    if (!flags.diff.empty()) outputs.write(0, image::encodePng(shown));
+    if (!flags.heat.empty())
+        outputs.write(1, image::encodePng(grade::heatMap(
+                             grade::flip(grade::FloatImage(first), grade::FloatImage(second)))));
+    report.merge(parseJson(grade::toJson(found), grade::kComparisonJson));
+    if (!report.json()) print(found);
+    return kDone;
+}
+
 int run(const Flags& flags, Report& report) {
     requirePng("--diff", flags.diff);
     requirePng("--heat", flags.heat);
     std::vector<grade::Rectangle> hidden;
     for (const std::string& text : flags.masks) hidden.push_back(parseRectangle("--mask", text));
     if (!flags.crop.empty() && flags.crop != "auto") parseRectangle("--crop", flags.crop);
-    const render::Image first = open(flags.first, flags.crop),
-                        second = open(flags.second, flags.crop);
-    grade::requireSameSize(first.width, first.height, second.width, second.height);
-    grade::Mask mask;
-    grade::hide(mask, first.width, first.height, hidden);
-    if (flags.maskAxes) grade::hideAxes(mask, first, second);
-    const auto [found, shown] = grade::compare(first, second, mask);
-    if (!flags.diff.empty()) writeOutput(flags.diff, render::encodePng(shown));
-    if (!flags.heat.empty())
-        writeOutput(flags.heat, render::encodePng(grade::heatMap(grade::flip(
-                                    grade::FloatImage(first), grade::FloatImage(second)))));
-    report.merge(nlohmann::json::parse(grade::toJson(found)));
-    if (!report.json()) print(found);
-    return kDone;
+    const std::string first = readInput(flags.first), second = readInput(flags.second);
+    const Confinement confinement{flags.confinement, {}, {flags.diff, flags.heat}};
+    return confine(confinement, report, [&](Outputs& outputs) {
+        return compare(flags, decode(first, flags.first, flags.crop),
+                       decode(second, flags.second, flags.crop), hidden, report, outputs);
+    });
 }
 
 }  // namespace
@@ -114,6 +128,7 @@ void addCompare(CLI::App& root, Action& action) {
         ->type_name("FILE");
     command->add_option("--diff", flags->diff, "writes a .png that shows where they differ")
         ->type_name("FILE");
+    addConfinement(*command, flags->confinement);
     command->callback(
         [&action, flags] { action = [flags](Report& report) { return run(*flags, report); }; });
 }

@@ -7,37 +7,43 @@
 #include <vector>
 
 #include "cli/command.h"
+#include "cli/confine.h"
 #include "cli/files.h"
+#include "cli/messages.h"
 #include "generator/io/mesh_file.h"
 #include "generator/registry.h"
 #include "generator/words.h"
-#include "scene/assets.h"
+#include "scene/files/assets.h"
 
 namespace farol::cli {
 namespace {
 
 constexpr const char* kUsageLine = "farol generate SHAPE ARGS... OUT, or farol generate IN OUT";
-constexpr const char* kEndings =
-    "a file to write that ends with .3d, .obj, .ply or .3db (or - for stdout)";
+constexpr const char* kEndings = "a name that ends with .3d, .obj, .ply or .3db, or - for stdout";
+
+struct Flags {
+    std::string uv;
+    ConfinementFlags confinement;
+};
 
 std::string upper(std::string text) {
     for (char& c : text) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
     return text;
 }
 
-std::string helpOf(const generator::Shape& shape) {
+std::string helpOf(const generator::ShapeEntry& shape) {
     std::ostringstream text;
     text << "  " << generator::usageOf(shape) << "\n      " << shape.summary << "\n";
     for (const generator::Argument& one : shape.arguments)
         text << "      " << upper(one.name) << ": " << one.help << "; "
-             << (one.integer ? "a whole number " : "") << one.min << ".." << one.max << "\n";
+             << (one.isInteger() ? "a whole number " : "") << one.min << ".." << one.max << "\n";
     return text.str();
 }
 
 std::string allShapes() {
     std::string text =
         "Shapes, with their arguments in order (those in brackets may be left out):\n";
-    for (const generator::Shape& shape : generator::shapes()) text += helpOf(shape);
+    for (const generator::ShapeEntry& shape : generator::shapes()) text += helpOf(shape);
     return text +
            "\nA mesh file (.3d .obj .ply .stl .off .tri .3db) in the place of the shape is "
            "converted.";
@@ -49,41 +55,63 @@ std::vector<std::string> wordsOf(const CLI::App& command) {
     for (const std::string& word : words)
         if (word.size() > 1 && word[0] == '-' &&
             (word[1] == '-' || std::isalpha(static_cast<unsigned char>(word[1])) != 0))
-            throw UsageError("generate takes no option " + word + " (" + kUsageLine + ")");
-    if (words.size() < 2) throw UsageError(std::string("too few words: ") + kUsageLine);
+            throw UsageError(message<"usage/generate-option">("option"_arg = word,
+                                                              "usage"_arg = uncut(kUsageLine)));
+    if (words.size() < 2)
+        throw UsageError(message<"usage/generate">("usage"_arg = uncut(kUsageLine)));
     return words;
 }
 
-generator::Mesh convert(const std::string& path, Report& report) {
+generator::Mesh convert(const std::string& bytes, const std::string& path, Report& report) {
     Diagnostics findings;
-    generator::Mesh mesh = generator::io::decodeMesh(readInput(path), path, findings);
+    generator::Mesh mesh = generator::io::decodeMesh(bytes, path, findings);
     report.add(findings);
     return mesh;
 }
 
-/// A profile or patch file may lie anywhere; the generator looks it up by name in its folder.
-generator::Mesh make(std::vector<std::string> words, scene::UvLayout uv, Report& report) {
+/// Runs what reads the shape's words: they are the command line, so a fault is in its use.
+template <typename Step>
+auto asUsage(Step step) {
     try {
-        Diagnostics findings;
-        words = generator::wordsOfComment(words, "", {}, findings);
-        report.add(findings);
-    } catch (const Error&) {
-        // As written, the words tell better what is wrong with them.
-    }
-    const generator::Shape* shape = generator::findShape(words.front());
-    std::string folder = ".";
-    if (shape != nullptr && shape->takesFile && words.size() > 1) {
-        folder = folderOf(words[1]);
-        words[1] = std::filesystem::path(words[1]).filename().string();
-    }
-    try {
-        return generator::generate(words, scene::FolderAssets(folder), uv);
+        return step();
     } catch (const Error& error) {
-        // The words are the command line, so the fault is in its use.
         if (error.code().rfind("shape.", 0) == 0 || error.code() == "limit.triangles")
-            throw UsageError(error.what(), error.code());
+            throw UsageError(error.primary());
         throw;
     }
+}
+
+/// A shape, and the folder of the profile or patch file that it names.
+struct LocatedCall {
+    generator::ShapeCall call;
+    std::string folder = ".";
+};
+
+generator::ShapeCall parse(const std::vector<std::string>& words, Report& report) {
+    try {
+        Diagnostics findings;
+        generator::ShapeCall call = generator::parseComment(words, "", {}, findings);
+        // A scene's slips are repaired; a command can be typed again.
+        const bool slip = std::any_of(findings.begin(), findings.end(), [](const Diagnostic& one) {
+            return one.code == "shape.argument";
+        });
+        if (slip) call = generator::parseCall(words);
+        report.add(findings);
+        return call;
+    } catch (const Error&) {
+        return generator::parseCall(words);  // as written, the words tell better what is wrong
+    }
+}
+
+/// A profile or patch file may lie anywhere; the generator looks it up by name in its folder.
+LocatedCall locate(generator::ShapeCall call) {
+    LocatedCall located{std::move(call)};
+    if (located.call.entry->takesFile) {
+        std::string& file = located.call.file;
+        located.folder = folderOf(file);
+        file = std::filesystem::path(file).filename().string();
+    }
+    return located;
 }
 
 scene::UvLayout layoutOf(const std::string& name) {
@@ -91,7 +119,19 @@ scene::UvLayout layoutOf(const std::string& name) {
     return name == "2017" ? scene::UvLayout::layout2017 : scene::UvLayout::face;
 }
 
-int run(const CLI::App& command, const std::string& uv, Report& report) {
+int write(const generator::Mesh& mesh, generator::io::Format format, const std::string& path,
+          Report& report, Outputs& outputs) {
+    outputs.write(0, generator::io::encodeMesh(mesh, format));
+    report.set("output", path);
+    report.set("vertices", mesh.positions().size());
+    report.set("triangles", mesh.triangles());
+    if (!report.json() && path != "-")
+        std::cout << path << ": " << mesh.positions().size() << " vertices, " << mesh.triangles()
+                  << " triangles" << std::endl;
+    return kDone;
+}
+
+int run(const CLI::App& command, const Flags& flags, Report& report) {
     std::vector<std::string> words = wordsOf(command);
     const std::string output = words.back();
     words.pop_back();
@@ -101,38 +141,46 @@ int run(const CLI::App& command, const std::string& uv, Report& report) {
     const auto format =
         output == "-" ? std::optional(Format::text3d) : generator::io::formatOf(output);
     if (output == "-" && report.json())
-        throw UsageError("--json and - would both write to standard output");
-    if (!format) throw UsageError("\"" + output + "\" is the last word, which must be " + kEndings);
-    if (converts && !uv.empty())
-        throw UsageError("--uv lays out shapes; a mesh file keeps its own texture coordinates");
-    const generator::Mesh mesh =
-        converts ? convert(words.front(), report) : make(words, layoutOf(uv), report);
-    writeOutput(output, generator::io::encodeMesh(mesh, *format));
-    report.set("output", output);
-    report.set("vertices", mesh.positions.size());
-    report.set("triangles", mesh.triangles());
-    if (!report.json() && output != "-")
-        std::cout << output << ": " << mesh.positions.size() << " vertices, " << mesh.triangles()
-                  << " triangles" << std::endl;
-    return kDone;
+        throw UsageError(message<"usage/output-twice">("output"_arg = "-"));
+    if (!format)
+        throw UsageError(
+            message<"usage/generate-format">("path"_arg = output, "known"_arg = uncut(kEndings)));
+    if (converts && !flags.uv.empty()) throw UsageError(message<"usage/generate-uv">());
+    Confinement confinement{flags.confinement, {}, {output}};
+    if (converts) {
+        const std::string& path = words.front();
+        return confine(confinement, report, [&, bytes = readInput(path)](Outputs& outputs) {
+            return write(convert(bytes, path, report), *format, output, report, outputs);
+        });
+    }
+    const LocatedCall shape = locate(asUsage([&] { return parse(words, report); }));
+    confinement.readable = {shape.folder};
+    return confine(confinement, report, [&](Outputs& outputs) {
+        const generator::Mesh mesh = asUsage([&] {
+            return generator::generate(shape.call, scene::FolderAssets(shape.folder),
+                                       layoutOf(flags.uv));
+        });
+        return write(mesh, *format, output, report, outputs);
+    });
 }
 
 }  // namespace
 
 void addGenerate(CLI::App& root, Action& action) {
     CLI::App* command = root.add_subcommand("generate", "Writes the mesh of a shape");
-    const auto uv = std::make_shared<std::string>();
+    const auto flags = std::make_shared<Flags>();
     command->description(std::string("Writes the mesh of a shape: ") + kUsageLine);
     command
-        ->add_option("--uv", *uv,
+        ->add_option("--uv", flags->uv,
                      "texture coordinates: a whole picture a face, or one picture "
                      "around the shape, or as the 2017 engine; default face")
         ->type_name("LAYOUT")
         ->check(CLI::IsMember({"face", "atlas", "2017"}));
+    addConfinement(*command, flags->confinement);
     command->footer(allShapes);
     command->allow_extras();
-    command->callback([&action, command, uv] {
-        action = [command, uv](Report& report) { return run(*command, *uv, report); };
+    command->callback([&action, command, flags] {
+        action = [command, flags](Report& report) { return run(*command, *flags, report); };
     });
 }
 

@@ -14,14 +14,15 @@
 #include "cli/command.h"
 #include "cli/files.h"
 #include "cli/grade_batch.h"
-#include "grade/rubric.h"
-#include "server/worker/pool.h"
+#include "cli/messages.h"
+#include "grade/rubric/rubric.h"
+#include "worker/pool.h"
 
 namespace farol::cli {
 namespace {
 
 struct Flags {
-    std::string reference, submissions, output, rubric;
+    std::string reference, submissions, output, rubric, missing = "placeholder";
     int jobs = 0;
     double deadlineS = 60.0;
     std::size_t memoryMiB = 1024;
@@ -68,11 +69,13 @@ void writeReport(const std::string& path, const grade::ClassResult& all,
     out.close();
     std::error_code failed;
     if (out) std::filesystem::rename(draft, path, failed);
-    if (!out || failed) throw OutputError("cannot write " + path);
+    if (!out || failed)
+        throw OutputError(message<"output.unwritable">(
+            "path"_arg = uncut(path), "reason"_arg = failed ? failed.message() : "write error"));
 }
 
-server::worker::PoolOptions poolOptions(const Flags& flags) {
-    server::worker::PoolOptions pool;
+worker::PoolOptions poolOptions(const Flags& flags) {
+    worker::PoolOptions pool;
     pool.workers = flags.jobs > 0
                        ? flags.jobs
                        : std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, 64);
@@ -81,7 +84,17 @@ server::worker::PoolOptions poolOptions(const Flags& flags) {
     pool.queue.wait = std::chrono::hours(24);
     pool.queue.deadline =
         std::chrono::milliseconds(static_cast<std::int64_t>(flags.deadlineS * 1000.0));
+    // One user's own machine: the deadline alone bounds what many cores do at once.
+    pool.cpu = std::chrono::hours(24);
     return pool;
+}
+
+/// Replaces control characters: a name cannot write to the terminal.
+std::string printable(std::string name) {
+    std::replace_if(
+        name.begin(), name.end(),
+        [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; }, '?');
+    return name;
 }
 
 void printTable(const grade::ClassResult& all, const BatchTimes& times, int jobs) {
@@ -89,8 +102,11 @@ void printTable(const grade::ClassResult& all, const BatchTimes& times, int jobs
     for (std::size_t i = 0; i < all.count; ++i) {
         const grade::SubmissionResult one = all.at(i);
         passed += one.passed ? 1 : 0;
-        std::printf("%8.2f / %.0f  %s  %s\n", one.points, one.most, one.passed ? "pass" : "FAIL",
-                    one.id.c_str());
+        if (one.graded)
+            std::printf("%8.2f / %.0f  %s  %s\n", one.points, one.most,
+                        one.passed ? "pass" : "FAIL", printable(one.id).c_str());
+        else
+            std::printf("%8s / %.0f  none  %s\n", "-", one.most, printable(one.id).c_str());
     }
     std::printf("%zu of %zu passed\n", passed, all.count);
     const double each = static_cast<double>(std::max<std::size_t>(1, times.graded));
@@ -109,29 +125,33 @@ int run(const Flags& flags, Report& report) {
         return kDone;
     }
     if (flags.reference.empty() || flags.submissions.empty() || flags.output.empty())
-        throw UsageError("grade takes --reference REF SUBMISSIONS_DIR -o REPORT_DIR");
-    const grade::Rubric rubric = flags.rubric.empty()
-                                     ? grade::defaultRubric()
-                                     : grade::readRubric(readInput(flags.rubric), flags.rubric);
+        throw UsageError(message<"usage/grade">());
+    BatchOptions options;
+    options.rubric = flags.rubric.empty()
+                         ? grade::defaultRubric()
+                         : grade::readRubric(readInput(flags.rubric), flags.rubric);
+    render::PictureOptions picture;
+    render::applyOption(picture, "missing", flags.missing);
+    options.missing = picture.missing;
     std::vector<GradeTask> tasks = findTasks(flags.reference);
     std::vector<Submission> submissions = findSubmissions(flags.submissions);
-    BatchOptions options;
-    options.rubric = grade::writeRubric(rubric);
     options.resultsDir = flags.output + "/results";
     std::error_code failed;
     std::filesystem::create_directories(options.resultsDir, failed);
-    if (failed) throw OutputError("cannot make " + options.resultsDir + ": " + failed.message());
+    if (failed)
+        throw OutputError(message<"output.unwritable/folder">(
+            "path"_arg = uncut(options.resultsDir), "reason"_arg = failed.message()));
     Progress progress;
     options.progress = [&](std::size_t done, std::size_t all) { progress(done, all); };
 
     std::signal(SIGPIPE, SIG_IGN);  // a worker that dies while it is spoken to
-    const server::worker::PoolOptions poolSettings = poolOptions(flags);
+    const worker::PoolOptions poolSettings = poolOptions(flags);
     options.jobs = poolSettings.workers;
-    server::Logger quiet([](const std::string&) {});
-    server::worker::WorkerPool pool(poolSettings, quiet);
+    const worker::EventLog quiet = [](const std::string&, const std::string&) {};
+    worker::WorkerPool pool(poolSettings, quiet);
     Batch batch(pool, std::move(submissions), std::move(tasks), options);
     const BatchTimes times = batch.run();
-    const grade::ClassResult all = batch.result(rubric.title);
+    const grade::ClassResult all = batch.result();
     writeReport(flags.output + "/report.html", all, grade::writeHtml);
     writeReport(flags.output + "/grades.csv", all, grade::writeCsv);
     writeReport(flags.output + "/junit.xml", all, grade::writeJunit);
@@ -147,7 +167,8 @@ int run(const Flags& flags, Report& report) {
                         {"name", one.name},
                         {"points", one.points},
                         {"most", one.most},
-                        {"passed", one.passed}});
+                        {"passed", one.passed},
+                        {"graded", one.graded}});
     }
     report.set("submissions", std::move(list));
     report.set("timesMs", {{"read", times.readMs},
@@ -176,6 +197,11 @@ void addGrade(CLI::App& root, Action& action) {
         ->type_name("DIR");
     command->add_option("--rubric", flags->rubric, "a .json file; default: --print-rubric")
         ->type_name("FILE");
+    command
+        ->add_option("--missing", flags->missing,
+                     "what a submission's missing or damaged file does: placeholder draws a "
+                     "checker or a box for it; error grades with no points; default placeholder")
+        ->type_name("error|placeholder");
     takesNumber(command->add_option("--jobs", flags->jobs, "processes; 0: one a core"), 0, 64);
     takesNumber(
         command->add_option("--deadline", flags->deadlineS, "longest time for one submission, s"),

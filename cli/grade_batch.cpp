@@ -8,9 +8,12 @@
 #include <thread>
 
 #include "cli/files.h"
-#include "grade/rubric.h"
-#include "scene/digest.h"
-#include "scene/words.h"
+#include "cli/messages.h"
+#include "core/digest.h"
+#include "core/number.h"
+#include "core/text.h"
+#include "grade/rubric/grader.h"
+#include "grade/rubric/rubric.h"
 
 namespace farol::cli {
 namespace {
@@ -18,56 +21,82 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 /// A result's file: the grade on one line, then each picture after a line with its size.
-std::string packed(const server::GradeReply& reply) {
+std::string packed(const worker::GradeTask::Reply& reply) {
     std::string out = reply.json + "\n";
     for (const std::string& picture : reply.pictures)
         out += std::to_string(picture.size()) + "\n" + picture;
     return out;
 }
 
+/// Whether the text is a grade: an object with its points.
+bool isGrade(const std::string& text) {
+    try {
+        const nlohmann::json document = parseJson(text, grade::kGradeJson);
+        return document.is_object() && document.contains("points") &&
+               document["points"].is_number();
+    } catch (const JsonError&) {
+        return false;
+    }
+}
+
 /// False where the bytes are not a whole result.
-bool unpackInto(grade::TaskResult& task, const std::string& bytes) {
+bool unpackInto(grade::TaskGrade& task, const std::string& bytes) {
     std::size_t at = bytes.find('\n');
     task.json = bytes.substr(0, at);
-    if (at == std::string::npos || !nlohmann::json::accept(task.json)) return false;
+    if (at == std::string::npos || !isGrade(task.json)) return false;
     while (++at < bytes.size()) {
         const std::size_t end = bytes.find('\n', at);
         if (end == std::string::npos) return false;
-        const std::size_t size = std::strtoul(bytes.c_str() + at, nullptr, 10);
-        if (size > bytes.size() - end - 1) return false;
-        task.pictures.push_back(bytes.substr(end + 1, size));
-        at = end + size;
+        const auto size = parseExact<std::size_t>(std::string_view(bytes).substr(at, end - at));
+        if (!size || *size > bytes.size() - end - 1) return false;
+        task.pictures.push_back(bytes.substr(end + 1, *size));
+        at = end + *size;
     }
     return true;
 }
 
 /// True where an earlier run left the result: a machine that lost power may have left a part of it.
-bool isWhole(const std::string& path) {
-    grade::TaskResult kept;
-    return std::filesystem::exists(path) && unpackInto(kept, readInput(path));
+bool isWholeInto(grade::TaskGrade& task, const std::string& path) {
+    std::error_code failed;
+    return std::filesystem::is_regular_file(path, failed) && unpackInto(task, readInput(path));
 }
 
 /// Asks again where the worker is lost or its memory full: that may be what earlier submissions
-/// left in it, and the next worker is a fresh one. Who is late is not asked again.
-server::GradeReply ask(server::Backend& backend, const server::GradeJob& job) {
+/// left in it, and the next worker is a fresh one. After a timeout it does not retry.
+template <worker::Task T>
+typename T::Reply ask(worker::Backend& backend, const typename T::Request& request) {
     try {
-        return backend.grade(job).result;
-    } catch (const server::Busy& busy) {
+        return backend.run<T>(request).result;
+    } catch (const worker::Busy& busy) {
         if (!busy.code().starts_with("worker.")) throw;
     } catch (const Error& error) {
         if (error.code() != "limit.memory") throw;
     }
-    return backend.grade(job).result;
+    return backend.run<T>(request).result;
+}
+
+/// The images of a reference, JPEG. Throws Error, also where it ends its workers.
+std::vector<std::string> askForReference(worker::Backend& backend,
+                                         const worker::ReferenceTask::Request& request,
+                                         const std::string& path) {
+    try {
+        return ask<worker::ReferenceTask>(backend, request).pictures;
+    } catch (const worker::Busy& busy) {
+        throw Error(busy.code() == "busy.deadline"
+                        ? message<"grade.reference/deadline">()
+                        : message<"grade.reference/process">("code"_arg = busy.code()),
+                    {path, 0, 0});
+    }
 }
 
 std::string digestOf(const grade::Subject& subject) {
-    std::string all = subject.job.name + "\n" + scene::contentDigest(subject.job.xml) +
-                      scene::contentDigest(subject.job.archive) +
-                      scene::contentDigest(subject.picture);
+    std::string all = subject.job.name + "\n" + subject.job.path + "\n" +
+                      contentDigest(subject.job.xml) + contentDigest(subject.job.archive) +
+                      contentDigest(subject.picture.value_or(""));
     if (subject.job.assets)
         for (const std::string& path : subject.job.assets->list())
             all += "\n" + path + "\n" + subject.job.assets->version(path);
-    return scene::contentDigest(all);
+    return contentDigest(all);
 }
 
 }  // namespace
@@ -78,21 +107,18 @@ struct Batch::Task {
     std::vector<std::string> pictures;
 };
 
-Batch::Batch(server::Backend& backend, std::vector<Submission> submissions,
+Batch::Batch(worker::Backend& backend, std::vector<Submission> submissions,
              std::vector<GradeTask> tasks, BatchOptions options)
     : backend_(backend),
       submissions_(std::move(submissions)),
       names_(std::move(tasks)),
       options_(std::move(options)),
-      entries_(submissions_.size() * names_.size()) {
-    const grade::Rubric rubric = grade::readRubric(options_.rubric, "rubric");
-    most_ = rubric.points;
-    passMark_ = rubric.passMark;
-}
+      rubric_(worker::packRubric(options_.rubric)),
+      entries_(submissions_.size() * names_.size()) {}
 
 std::string Batch::keyOf(const grade::Subject& subject, const Task& task) const {
-    return scene::contentDigest(digestOf(subject) + subject.task + task.digest + options_.rubric +
-                                backend_.version());
+    return contentDigest(digestOf(subject) + subject.task + task.digest + rubric_.json +
+                         std::string(render::kMissingWords[options_.missing]) + backend_.version());
 }
 
 BatchTimes Batch::run() {
@@ -106,10 +132,7 @@ BatchTimes Batch::run() {
         task->reference = readReference(one.path, apart);
         task->digest = digestOf(task->reference);
         // Asked for first: a reference that is at fault ends the run before it begins.
-        server::GradeJob job;
-        job.reference = task->reference;
-        job.rubric = options_.rubric;
-        task->pictures = backend_.grade(job).result.pictures;
+        task->pictures = askForReference(backend_, {task->reference, rubric_}, one.path);
         tasks_.push_back(std::move(task));
     }
     std::atomic<std::size_t> next{0}, done{0};
@@ -137,19 +160,21 @@ bool Batch::failed() {
 void Batch::gradeOne(std::size_t submission, std::size_t task) {
     Entry& entry = entries_[submission * names_.size() + task];
     try {
-        server::GradeJob job;
+        worker::GradeTask::Request job;
         job.submission = readSubject(submissions_[submission].path, names_[task].name);
+        job.submission.job.options.missing = options_.missing;
         job.reference = tasks_[task]->reference;
-        job.rubric = options_.rubric;
+        job.rubric = rubric_;
         const std::string file =
             options_.resultsDir + "/" + keyOf(job.submission, *tasks_[task]) + ".grade";
-        if (isWhole(file)) {
+        if (grade::TaskGrade kept; isWholeInto(kept, file)) {
             entry.file = file;
             const std::lock_guard lock(mutex_);
             ++times_.kept;
             return;
         }
-        const server::GradeReply reply = ask(backend_, job);
+        const worker::GradeTask::Reply reply = ask<worker::GradeTask>(backend_, job);
+        if (!isGrade(reply.json)) throw std::runtime_error("a worker sent no grade");
         writeOutput(file, packed(reply));
         entry.file = file;
         const std::lock_guard lock(mutex_);
@@ -159,8 +184,8 @@ void Batch::gradeOne(std::size_t submission, std::size_t task) {
         times_.compareMs += reply.compareMs;
     } catch (const Error& error) {
         entry.code = error.code();
-        entry.failure = error.what();
-    } catch (const server::Busy& busy) {
+        entry.failure = toUtf8(error.what());
+    } catch (const worker::Busy& busy) {
         entry.code = busy.code();
         entry.failure = busy.code() == "busy.deadline"
                             ? "The submission took too long and was ended."
@@ -171,7 +196,7 @@ void Batch::gradeOne(std::size_t submission, std::size_t task) {
         fault_ = std::current_exception();
     } catch (const std::exception& fault) {
         entry.code = "internal";
-        entry.failure = scene::shown(fault.what());
+        entry.failure = shown(fault.what());
     }
 }
 
@@ -181,32 +206,40 @@ grade::SubmissionResult Batch::load(std::size_t submission) const {
     out.id = who.id;
     out.name = who.name;
     out.number = who.number;
-    out.most = most_;
+    out.most = options_.rubric.points;
+    out.graded = false;
     for (std::size_t t = 0; t < names_.size(); ++t) {
         const Entry& entry = entries_[submission * names_.size() + t];
         grade::TaskResult task;
         task.task = names_[t].name;
-        task.code = entry.code;
-        task.failure = entry.failure;
-        if (!entry.file.empty()) {
-            unpackInto(task, readInput(entry.file));
-            out.points += nlohmann::json::parse(task.json).value("points", 0.0);
+        grade::TaskGrade kept;
+        if (entry.file.empty()) {
+            task.result = grade::TaskFailure{entry.code, entry.failure};
+        } else if (isWholeInto(kept, entry.file)) {
+            const nlohmann::json grade = parseJson(kept.json, grade::kGradeJson);
+            out.points += grade.value("points", 0.0);
+            out.graded = out.graded || !grade.value("refused", false);
+            task.result = std::move(kept);
+        } else {
+            task.result = grade::TaskFailure{
+                "grade.lost", "result file is gone or damaged; run the command again"};
         }
         out.tasks.push_back(std::move(task));
     }
     out.points = std::round(100.0 * out.points / static_cast<double>(names_.size())) / 100.0;
-    out.passed = out.points >= most_ * passMark_ / 100.0;
+    out.passed =
+        out.graded && out.points >= options_.rubric.points * options_.rubric.passMark / 100.0;
     return out;
 }
 
-grade::ClassResult Batch::result(const std::string& title) const {
+grade::ClassResult Batch::result() const {
     grade::ClassResult all;
-    all.title = title;
+    all.title = options_.rubric.title;
     all.count = submissions_.size();
     all.at = [this](std::size_t i) { return load(i); };
     for (const GradeTask& one : names_) all.tasks.push_back(one.name);
     for (const auto& task : tasks_) all.references.push_back(task->pictures);
-    all.rubric = options_.rubric;
+    all.rubric = rubric_.json;
     return all;
 }
 

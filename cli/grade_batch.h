@@ -8,8 +8,10 @@
 #include <vector>
 
 #include "cli/submissions.h"
-#include "grade/report.h"
-#include "server/backend.h"
+#include "grade/report/report.h"
+#include "grade/rubric/rubric.h"
+#include "worker/backend.h"
+#include "worker/tasks/grade.h"
 
 namespace farol::cli {
 
@@ -20,9 +22,11 @@ struct BatchTimes {
 };
 
 struct BatchOptions {
-    std::string rubric;      ///< JSON
+    grade::Rubric rubric;
     std::string resultsDir;  ///< where each result is kept, so that a run can go on
     int jobs = 1;
+    /// What a submission's missing or damaged file does; references must be whole.
+    render::Missing missing = render::Missing::placeholder;
     std::function<void(std::size_t done, std::size_t all)> progress;
 };
 
@@ -30,11 +34,11 @@ struct BatchOptions {
 /// its worker or is late has that for a result; only a fault of the reference is thrown.
 class Batch {
   public:
-    Batch(server::Backend& backend, std::vector<Submission> submissions,
+    Batch(worker::Backend& backend, std::vector<Submission> submissions,
           std::vector<GradeTask> tasks, BatchOptions options);
 
     BatchTimes run();
-    grade::ClassResult result(const std::string& title) const;
+    grade::ClassResult result() const;
 
   private:
     struct Task;
@@ -43,10 +47,11 @@ class Batch {
     bool failed();
     grade::SubmissionResult load(std::size_t submission) const;
 
-    server::Backend& backend_;
+    worker::Backend& backend_;
     std::vector<Submission> submissions_;
     std::vector<GradeTask> names_;
     BatchOptions options_;
+    const worker::PackedRubric rubric_;
     std::vector<std::shared_ptr<Task>> tasks_;
     struct Entry {
         std::string file;  ///< of the result; empty: failed
@@ -54,7 +59,6 @@ class Batch {
     };
     std::vector<Entry> entries_;  ///< by submission, then task
     BatchTimes times_;
-    double most_ = 0, passMark_ = 0;
     std::exception_ptr fault_;  ///< that ends the run: results cannot be written
     std::mutex mutex_;
 };

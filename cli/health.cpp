@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "cli/command.h"
+#include "cli/messages.h"
 
 namespace farol::cli {
 namespace {
@@ -20,7 +21,8 @@ int run(const Flags& flags, Report& report) {
     report.set("ready", health.ready);
     report.set("answer", health.reason);
     if (!health.ready) {
-        report.fail("service.unready", flags.url + " is not ready: " + health.reason);
+        report.fail(message<"service.unready">("url"_arg = uncut(flags.url),
+                                               "reason"_arg = uncut(health.reason)));
         return kInputFault;
     }
     if (!report.json()) std::cout << flags.url << ": ready" << std::endl;

@@ -1,11 +1,11 @@
 #include <algorithm>
-#include <exception>
 #include <string_view>
 
 #include "cli/command.h"
-#include "cli/files.h"
-#include "scene/text.h"
-#include "scene/words.h"
+#include "cli/descriptors.h"
+#include "cli/messages.h"
+#include "core/did_you_mean.h"
+#include "core/text.h"
 
 namespace {
 
@@ -16,47 +16,29 @@ constexpr const char* kFooter = R"(
 Exit codes: 0 done; 1 the input is at fault; 2 the command line is; 3 the program or the machine is.
 Diagnostics go to stderr as file:line:column: severity: message [code].)";
 
-int run(const Action& action, Report& report) {
-    try {
-        return action(report);
-    } catch (const UsageError& error) {
-        report.fail(error.code(), error.what());
-        return kUsage;
-    } catch (const Error& error) {
-        report.add(error.diagnostics());
-        return error.code().rfind("option.", 0) == 0 ? kUsage : kInputFault;
-    } catch (const OutputError& error) {
-        report.fail("output.unwritable", error.what());
-        return kInternal;
-    } catch (const std::exception& error) {
-        report.fail("internal", error.what());
-        return kInternal;
-    }
-}
-
-/// Whatever is not an option of `command`, with the nearest that is.
-std::string unexpected(const CLI::App& command, const std::string& word) {
+/// Reports a word that is neither an option nor an argument of `command`.
+Message unexpected(const CLI::App& command, const std::string& word) {
     std::vector<std::string> known;
     for (const CLI::Option* one : command.get_options())
         for (const std::string& name : one->get_lnames()) known.push_back("--" + name);
-    const std::string given = word.substr(0, word.find('='));
-    const std::string near = word[0] == '-' ? scene::didYouMean(given, known) : "";
-    return command.get_name() + (word[0] == '-' ? " has no option " : " does not expect ") +
-           scene::quoted(given) + (near.empty() ? "" : "; did you mean " + near + "?");
+    if (word[0] != '-')
+        return message<"usage/word">("command"_arg = command.get_name(), "word"_arg = word);
+    const std::string option = word.substr(0, word.find('='));
+    return message<"usage/option">("command"_arg = command.get_name(), "option"_arg = option,
+                                   "suggestion"_arg = didYouMean(option, known));
 }
 
-/// What CLI11 says, where it can be said better.
-std::string usageFault(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
+/// Returns the parser's message, or a more exact one where there is one.
+Message usageFault(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
     const auto commands = app.get_subcommands();
     if (commands.empty() && argc > 1) {
         std::vector<std::string> names;
         for (const CLI::App* one : app.get_subcommands([](const CLI::App*) { return true; }))
             if (!one->get_group().empty()) names.push_back(one->get_name());
-        const std::string near = scene::didYouMean(argv[1], names);
-        std::string list;
-        for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
-        return "there is no subcommand " + scene::quoted(argv[1]) +
-               (near.empty() ? " among " + list : "; did you mean \"" + near + "\"?");
+        const std::string near = didYouMean(argv[1], names);
+        return message<"usage/subcommand">(
+            "name"_arg = argv[1], "suggestion"_arg = near,
+            "known"_arg = uncut(near.empty() ? joined(names, ", ") : ""));
     }
     if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError) &&
         !commands.empty()) {
@@ -67,12 +49,14 @@ std::string usageFault(const CLI::App& app, const CLI::ParseError& error, int ar
         if (!extras.empty())
             return unexpected(*commands.front(), option == extras.end() ? extras.front() : *option);
     }
-    return error.what();
+    const std::string command = commands.empty() ? "farol" : "farol " + commands[0]->get_name();
+    return message<"usage/arguments">("reason"_arg = uncut(error.what()), "command"_arg = command);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+    if (!holdStandardDescriptors()) return kInternal;
     CLI::App app("Farol renders XML scenes without a screen.", "farol");
     app.footer(kFooter);
     app.require_subcommand(1);
@@ -85,13 +69,17 @@ int main(int argc, char** argv) {
     addValidate(app, action);
     addCompare(app, action);
     addGrade(app, action);
+    addSchema(app, action);
     addHealth(app, action);
     addVersion(app, action);
+    addCompletion(app, action);
+    addManual(app, action);
     addWorker(app, action);
     for (CLI::App* command : app.get_subcommands({}))
-        command->add_flag_callback(
-            "--json", [&report] { report.useJson(); },
-            "say everything as one JSON object on stdout");
+        if (command->get_option_no_throw("--json") == nullptr)  // of schema it is a form
+            command->add_flag_callback(
+                "--json", [&report] { report.useJson(); },
+                "say everything as one JSON object on stdout");
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
@@ -99,14 +87,11 @@ int main(int argc, char** argv) {
         // A flag before the fault may not have been read yet.
         for (int i = 1; i < argc; ++i)
             if (std::string_view(argv[i]) == "--json") report.useJson();
-        const auto commands = app.get_subcommands();
-        const std::string help = commands.empty() ? "farol" : "farol " + commands[0]->get_name();
-        report.fail("usage",
-                    usageFault(app, error, argc, argv) + " (" + help + " --help says more)");
+        report.fail(usageFault(app, error, argc, argv));
         report.finish(kUsage);
         return kUsage;
     }
-    const int status = run(action, report);
+    const int status = runGuarded([&] { return action(report); }, report);
     report.finish(status);
     return status;
 }

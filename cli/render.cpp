@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <iostream>
 #include <memory>
 #include <utility>
@@ -5,8 +6,12 @@
 
 #include "cli/animation.h"
 #include "cli/command.h"
+#include "cli/confine.h"
 #include "cli/files.h"
+#include "cli/messages.h"
 #include "cli/source.h"
+#include "core/text.h"
+#include "image/format.h"
 #include "render/renderer.h"
 #include "server/json.h"
 
@@ -16,19 +21,19 @@ namespace {
 struct Flags {
     std::string scene, output, assets;
     AnimationFlags animation;
+    ConfinementFlags confinement;
     bool strict = false, stats = false, verbose = false;
     std::vector<std::pair<std::string, std::string>> picture;  ///< options in the order given
 };
 
 render::PictureOptions pictureOptions(const Flags& flags) {
     render::PictureOptions options;
-    const std::string ending = endingOf(flags.output);
+    const std::string ending = fileEnding(flags.output);
     bool known = flags.output == "-" || flags.output.rfind("/dev/", 0) == 0;
-    for (const auto& [format, endings] :
-         {std::pair{"png", std::vector{"png"}}, {"jpeg", {"jpg", "jpeg"}}, {"webp", {"webp"}}})
-        for (const char* one : endings)
+    for (const image::FormatSpec& format : image::kFormats)
+        for (const std::string_view one : split(format.endings))
             if (ending == one) {
-                render::applyOption(options, "format", format);
+                render::applyOption(options, "format", std::string(format.name));
                 known = true;
             }
     for (const auto& [name, value] : flags.picture) {
@@ -36,8 +41,9 @@ render::PictureOptions pictureOptions(const Flags& flags) {
         known = known || name == "format";
     }
     if (!known)
-        throw UsageError("-o " + flags.output +
-                         ": pictures end with .png, .jpg, .jpeg or .webp (or give --format)");
+        throw UsageError(message<"usage/format">(
+            "path"_arg = flags.output, "known"_arg = uncut(image::listFormats(
+                                           &image::FormatSpec::endings, ", ", " or ", "."))));
     return options;
 }
 
@@ -56,23 +62,23 @@ void printStats(const nlohmann::json& stats, const nlohmann::json& timesMs) {
     std::cerr << std::endl;
 }
 
-int run(const Flags& flags, Report& report) {
-    if (report.json() && flags.output == "-")
-        throw UsageError("--json and -o - would both write to standard output");
-    report.setVerbose(flags.verbose);
-    const render::PictureOptions options = pictureOptions(flags);
-    render::Job job = openSource(flags.scene, flags.assets, flags.strict);
-    job.options = options;
-    report.setInput(job.name);
+/// Layers of the sandbox that this system lacks.
+void printMissing(const worker::Layers& layers) {
+    for (const auto& [name, state] : layers)
+        if (state.rfind("missing", 0) == 0)
+            std::cerr << "sandbox." << name << "=\"" << state << "\"" << std::endl;
+}
+
+int draw(const Flags& flags, const render::Job& job, Report& report, Outputs& outputs) {
     render::Picture picture;
     if (flags.animation.wanted()) {
-        const Schedule moments = schedule(flags.animation, render::inspect(job), options.timeS);
-        picture = renderAnimation(job, moments, flags.output);
+        const Schedule moments = schedule(flags.animation, render::inspect(job), job.options.timeS);
+        picture = renderAnimation(job, moments, flags.output, outputs);
         report.set("frames", moments.frames);
         report.set("fps", moments.fps);
     } else {
         picture = render::Renderer().render(job);
-        writeOutput(flags.output, picture.bytes);
+        outputs.write(0, picture.bytes);
     }
     report.add(picture.diagnostics);
     const nlohmann::json stats = server::toJson(picture.stats), times = toJson(picture.times);
@@ -86,7 +92,26 @@ int run(const Flags& flags, Report& report) {
     if (flags.stats && !report.json()) printStats(stats, times);
     if (flags.stats && !report.json() && picture.quality)
         std::cerr << "quality=" << server::toJson(*picture.quality) << std::endl;
-    return kDone;
+    if (flags.stats && !report.json()) printMissing(outputs.layers());
+    // With missing=placeholder there is an image beside the errors.
+    const bool hasErrors =
+        std::any_of(picture.diagnostics.begin(), picture.diagnostics.end(),
+                    [](const Diagnostic& one) { return one.severity == Severity::error; });
+    return hasErrors ? kInputFault : kDone;
+}
+
+int run(const Flags& flags, Report& report) {
+    if (report.json() && flags.output == "-")
+        throw UsageError(message<"usage/output-twice">("output"_arg = "-o -"));
+    report.setVerbose(flags.verbose);
+    const render::PictureOptions options = pictureOptions(flags);
+    render::Job job = openSource(flags.scene, flags.assets, flags.strict);
+    job.options = options;
+    report.setInput(job.name);
+    const Confinement confinement{
+        flags.confinement, {assetFolder(flags.scene, flags.assets)}, {flags.output}};
+    return confine(confinement, report,
+                   [&](Outputs& outputs) { return draw(flags, job, report, outputs); });
 }
 
 }  // namespace
@@ -97,7 +122,11 @@ void addRender(CLI::App& root, Action& action) {
     command->add_option("SCENE", flags->scene, "an .xml scene, a mesh file, or - for stdin")
         ->type_name("")
         ->required();
-    command->add_option("-o,--output", flags->output, "the picture: .png .jpg .webp, - for stdout")
+    command
+        ->add_option(
+            "-o,--output", flags->output,
+            "the picture: " + image::listFormats(&image::FormatSpec::endings, " ", " ", ".") +
+                ", - for stdout")
         ->type_name("FILE")
         ->required();
     command
@@ -113,6 +142,7 @@ void addRender(CLI::App& root, Action& action) {
     CLI::Option* fps =
         command->add_option("--fps", flags->animation.fps,
                             "frames a second; without --frames as many as make one loop");
+    addConfinement(*command, flags->confinement);
     takesNumber(frames->group("Animation"), 1, 3600);
     takesNumber(fps->group("Animation"), 0.01, 1000.0);
     for (const render::OptionSpec& spec : render::optionSpecs())

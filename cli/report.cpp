@@ -4,25 +4,10 @@
 #include <iostream>
 #include <utility>
 
-#include "server/problem.h"
+#include "core/limit_findings.h"
+#include "server/request/problem.h"
 
 namespace farol::cli {
-namespace {
-
-const char* nameOf(Severity severity) {
-    switch (severity) {
-        case Severity::info:
-            return "info";
-        case Severity::warning:
-            return "warning";
-        case Severity::error:
-            break;
-    }
-    return "error";
-}
-
-}  // namespace
-
 std::string formatLine(const Diagnostic& diagnostic) {
     const Location& where = diagnostic.where;
     std::string line = where.file;
@@ -30,7 +15,10 @@ std::string formatLine(const Diagnostic& diagnostic) {
         line += ":" + std::to_string(where.line);
         if (where.column > 0) line += ":" + std::to_string(where.column);
     }
-    line += std::string(": ") + nameOf(diagnostic.severity) + ": " + diagnostic.message;
+    line += ": " + std::string(kSeverityWords[diagnostic.severity]) + ": " + diagnostic.message;
+    // The note of what is hidden has its number in its text.
+    if (diagnostic.count > 1 && diagnostic.code != "limit.diagnostics")
+        line += " (" + std::to_string(diagnostic.count) + " times)";
     if (!diagnostic.code.empty()) line += " [" + diagnostic.code + "]";
     const auto isControl = [](char c) {
         const auto byte = static_cast<unsigned char>(c);
@@ -41,27 +29,37 @@ std::string formatLine(const Diagnostic& diagnostic) {
 }
 
 void Report::add(const Diagnostics& diagnostics) {
-    for (Diagnostic one : diagnostics) {
-        if (one.where.file.empty()) one.where.file = input_;
-        if (json_)
-            found_.push_back(std::move(one));
-        else if (verbose_ || one.severity != Severity::info)
-            std::cerr << formatLine(one) << "\n";
+    Diagnostics found = json_ || verbose_ ? diagnostics : server::notable(diagnostics);
+    for (Diagnostic& finding : found)
+        if (finding.where.file.empty()) finding.where.file = input_;
+    if (json_) {
+        found_.insert(found_.end(), found.begin(), found.end());
+        return;
+    }
+    limitFindings(found);
+    for (const Diagnostic& finding : found) {
+        if (printed_ < kMaxFindings) {
+            std::cerr << formatLine(finding) << "\n";
+            ++printed_;
+        } else {
+            hidden_ += finding.count;
+        }
     }
 }
 
-void Report::fail(const std::string& code, const std::string& message) {
-    Diagnostic one;
-    one.code = code;
-    one.message = message;
-    one.where.file = "farol";
-    add({one});
+void Report::fail(Diagnostic fault) {
+    fault.where.file = "farol";
+    add({std::move(fault)});
 }
 
 void Report::finish(int status) {
-    if (!json_) return;
+    if (!json_) {
+        if (hidden_ > 0)
+            std::cerr << formatLine(hiddenNote(std::exchange(hidden_, 0), input_)) << std::endl;
+        return;
+    }
     body_["status"] = status;
-    body_["diagnostics"] = server::toJson(found_);
+    server::setDiagnostics(body_, "diagnostics", found_);
     std::cout << server::dump(body_, 2) << std::endl;
 }
 

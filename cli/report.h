@@ -3,12 +3,12 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "scene/error.h"
+#include "core/error.h"
 
 namespace farol::cli {
 
-/// What a subcommand found: as lines on stderr while it runs, or as one JSON object on stdout at
-/// its end. The object holds `status` (the exit code), `diagnostics`, and what was `set`.
+/// Findings of a subcommand: as lines on stderr while it runs, or as one JSON object on stdout at
+/// its end. The object has `status` (the exit code), `diagnostics`, and the entries of `set`.
 class Report {
   public:
     /// From then on nothing is written before `finish`.
@@ -20,8 +20,9 @@ class Report {
     /// Stands in where a diagnostic names no file.
     void setInput(const std::string& name) { input_ = name; }
     void add(const Diagnostics& diagnostics);
-    /// A fault that is in no file: of the command line or of the machine.
-    void fail(const std::string& code, const std::string& message);
+    /// Adds an error that is in no file: of the command line or of the machine.
+    void fail(Diagnostic fault);
+    void fail(Message message) { fail(diagnosticOf(Severity::error, std::move(message))); }
     void set(const std::string& key, nlohmann::json value) { body_[key] = std::move(value); }
     /// Sets every entry of an object; `diagnostics` are those that were added, whatever it says.
     void merge(const nlohmann::json& object) { body_.update(object); }
@@ -33,6 +34,8 @@ class Report {
     std::string input_ = "farol";
     nlohmann::json body_ = nlohmann::json::object();
     Diagnostics found_;  ///< kept for JSON alone
+    std::size_t printed_ = 0;
+    int hidden_ = 0;  ///< findings over the limit, which were not printed
 };
 
 /// `file:line:column: severity: message [code]`; the numbers only where they are known. Control

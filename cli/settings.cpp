@@ -14,13 +14,6 @@ bool isSetting(const CLI::Option& option) {
     return name.starts_with("--") && name != "--help" && name != "--json";
 }
 
-std::string variableOf(const std::string& flag) {
-    std::string name = "FAROL_";
-    for (const char c : flag.substr(2))
-        name += c == '-' ? '_' : static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-    return name;
-}
-
 void set(CLI::App& command, const std::string& file, const CLI::ConfigItem& item) {
     const auto fault = [&](const std::string& what) {
         return CLI::ConfigError(file + ": " + item.fullname() + ": " + what,
@@ -45,6 +38,13 @@ void set(CLI::App& command, const std::string& file, const CLI::ConfigItem& item
 }
 
 }  // namespace
+
+std::string variableOf(const std::string& flag) {
+    std::string name = "FAROL_";
+    for (const char c : flag.substr(2))
+        name += c == '-' ? '_' : static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    return name;
+}
 
 void addSettings(CLI::App& command) {
     command.add_option(kFileFlag, "a TOML file of these settings, without the dashes: port = 8080")

@@ -10,4 +10,7 @@ namespace farol::cli {
 /// is not empty). Throws as readInput does.
 render::Job openSource(const std::string& path, const std::string& assets, bool strict);
 
+/// The folder of the files that the scene names.
+std::string assetFolder(const std::string& path, const std::string& assets);
+
 }  // namespace farol::cli

@@ -4,41 +4,56 @@
 #include <filesystem>
 #include <memory>
 #include <regex>
+#include <set>
 
 #include "cli/files.h"
-#include "scene/words.h"
+#include "cli/messages.h"
+#include "core/text.h"
+#include "scene/files/archive.h"
 
 namespace farol::cli {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostFiles = 256;                     // of one submission
-constexpr std::size_t kMostBytes = std::size_t{64} << 20U;  // of one submission
-constexpr std::size_t kMostSubmissions = 100'000;
+constexpr std::size_t kMaxBytes = std::size_t{64} << 20U;  // of one submission
+constexpr std::size_t kMaxSubmissions = 100'000;
 
 bool isPicture(const fs::path& path) { return grade::isPictureName(path.string()); }
-bool isArchive(const fs::path& path) { return grade::isArchiveName(path.string()); }
+bool isArchive(const fs::path& path) { return scene::isArchiveName(path.string()); }
 
 bool isHidden(const fs::path& path) {
     const std::string name = path.filename().string();
     return name.empty() || name[0] == '.' || name == "__MACOSX" || name == "Thumbs.db";
 }
 
-std::string ending(const fs::path& path) { return endingOf(path.string()); }
+std::string ending(const fs::path& path) { return fileEnding(path.string()); }
 
-/// Entries of a folder that are not hidden, by name; links are not followed.
+/// Entries of a folder that are not hidden, by name.
 std::vector<fs::path> entriesOf(const fs::path& folder) {
     std::vector<fs::path> all;
     std::error_code failed;
-    for (fs::directory_iterator one(folder, failed), end; !failed && one != end;
-         one.increment(failed))
-        if (!isHidden(one->path()) && !one->is_symlink()) all.push_back(one->path());
+    for (fs::directory_iterator at(folder, failed), end; !failed && at != end; at.increment(failed))
+        if (!isHidden(at->path())) all.push_back(at->path());
     if (failed)
-        throw Error("asset.unreadable", "cannot be read: " + failed.message(),
+        throw Error(message<"asset.unreadable/input">("reason"_arg = failed.message()),
                     {folder.string(), 0, 0});
     std::sort(all.begin(), all.end());
     return all;
+}
+
+/// The type of an entry itself, of a link too; `none` where it cannot be asked for.
+fs::file_type typeOf(const fs::path& path) {
+    std::error_code failed;
+    return fs::symlink_status(path, failed).type();
+}
+
+bool isFolder(const fs::path& path) { return typeOf(path) == fs::file_type::directory; }
+
+/// Whether a link leads to a folder.
+bool leadsToFolder(const fs::path& path) {
+    std::error_code failed;
+    return fs::is_directory(path, failed);
 }
 
 /// Takes "Name_12345_assignsubmission_file_" apart.
@@ -50,72 +65,81 @@ void readMoodle(Submission& one) {
     one.number = parts[2];
 }
 
-/// All files below a folder, by relative path, but for the folders `apart`.
-void collect(const fs::path& root, const fs::path& folder, const std::vector<fs::path>& apart,
-             std::map<std::string, std::string>& out, std::size_t& bytes, int depth) {
-    constexpr int kDeepest = 16;
-    if (depth > kDeepest)
-        throw Error("limit.bundle", "its folders are nested too deep", {root.string(), 0, 0});
-    for (const fs::path& path : entriesOf(folder)) {
-        if (fs::is_directory(path)) {
-            std::error_code failed;
-            const bool leftOut = std::any_of(apart.begin(), apart.end(), [&](const fs::path& one) {
-                return fs::equivalent(one, path, failed);
-            });
-            if (!leftOut) collect(root, path, apart, out, bytes, depth + 1);
-            continue;
-        }
-        if (!fs::is_regular_file(path)) continue;
+/// The files below a folder that scenes need, by relative path, but for the folders `apart` and
+/// what is hidden.
+std::shared_ptr<const scene::Assets> collect(const fs::path& root,
+                                             const std::vector<fs::path>& apart) {
+    const scene::FolderAssets folder(root.string());
+    std::vector<std::string> below;
+    for (const fs::path& one : apart) {
         std::error_code failed;
-        const std::uintmax_t size = fs::file_size(path, failed);
-        if (out.size() >= kMostFiles || failed || size > kMostBytes - bytes)
-            throw Error("limit.bundle",
-                        "a submission may hold " + std::to_string(kMostFiles) + " files of " +
-                            std::to_string(kMostBytes >> 20U) + " MiB together",
-                        {root.string(), 0, 0});
-        bytes += size;
-        out[path.lexically_relative(root).generic_string()] = readInput(path.string());
+        const std::string path =
+            fs::canonical(one, failed).lexically_relative(folder.root()).generic_string();
+        if (!failed && !path.empty() && !path.starts_with("..")) below.push_back(path + "/");
     }
+    std::vector<std::string> paths = folder.list();
+    std::erase_if(paths, [&](const std::string& path) {
+        return path.starts_with(".") || path.find("/.") != std::string::npos ||
+               std::any_of(below.begin(), below.end(),
+                           [&](const std::string& one) { return path.starts_with(one); });
+    });
+    try {
+        return std::make_shared<const scene::BundleAssets>(
+            scene::readFiles(folder, scene::neededFiles(folder, paths, kMaxBytes), kMaxBytes));
+    } catch (const Error& error) {
+        Diagnostics all = error.diagnostics();
+        for (Diagnostic& one : all)
+            if (one.where.file.empty()) one.where.file = root.string();
+        throw Error(std::move(all));
+    }
+}
+
+std::shared_ptr<const scene::Assets> single(const std::string& name, std::string content) {
+    return std::make_shared<const scene::BundleAssets>(
+        scene::BundleAssets::Files{{name, std::move(content)}});
 }
 
 }  // namespace
 
 std::vector<Submission> findSubmissions(const std::string& folder) {
-    if (!fs::is_directory(folder))
-        throw Error("asset.missing", "there is no such folder", {folder, 0, 0});
+    std::error_code failed;
+    if (!fs::is_directory(folder, failed))
+        throw Error(message<"asset.missing/submissions">(), {folder, 0, 0});
     std::vector<Submission> all;
+    std::set<std::string> ids;
     for (const fs::path& path : entriesOf(folder)) {
-        const std::string kind = ending(path);
-        if (!fs::is_directory(path) &&
-            !(fs::is_regular_file(path) && (kind == "xml" || isArchive(path) || isPicture(path))))
-            continue;
-        Submission one{path.string(), path.filename().string(), "", ""};
+        const bool isNamed = ending(path) == "xml" || isArchive(path) || isPicture(path);
+        if (!isNamed && !isFolder(path) && !leadsToFolder(path)) continue;
+        const std::string id = nameToUtf8(path.filename().string());
+        Submission one{path.string(), id, "", ""};
         readMoodle(one);
+        // Names that differ on the disk may read alike.
+        for (int i = 2; !ids.insert(one.id).second; ++i)
+            one.id = id + " (" + std::to_string(i) + ")";
         all.push_back(std::move(one));
-        if (all.size() > kMostSubmissions)
-            throw Error("limit.submissions",
-                        "more than " + std::to_string(kMostSubmissions) + " submissions",
-                        {folder, 0, 0});
+        if (all.size() > kMaxSubmissions)
+            throw Error(message<"limit.submissions">("max"_arg = kMaxSubmissions), {folder, 0, 0});
     }
-    if (all.empty())
-        throw Error("grade.no-submissions",
-                    "holds no folder, .xml file, archive or picture to grade", {folder, 0, 0});
+    if (all.empty()) throw Error(message<"grade.no-submissions">(), {folder, 0, 0});
     return all;
 }
 
 std::vector<GradeTask> findTasks(const std::string& reference) {
-    if (!fs::exists(reference))
-        throw Error("asset.missing", "there is no such file or folder", {reference, 0, 0});
-    if (!fs::is_directory(reference)) return {{"", reference}};
+    std::error_code failed;
+    if (!fs::exists(reference, failed))
+        throw Error(message<"asset.missing/reference">(), {reference, 0, 0});
+    if (!fs::is_directory(reference, failed)) return {{"", reference}};
     std::vector<GradeTask> scenes, folders, pictures;
     for (const fs::path& path : entriesOf(reference)) {
-        const GradeTask task{path.stem().string(), path.string()};
-        if (fs::is_directory(path)) {
+        const GradeTask task{nameToUtf8(path.stem().string()), path.string()};
+        if (isFolder(path)) {
             for (const fs::path& inside : entriesOf(path))
                 if (ending(inside) == "xml") {
-                    folders.push_back({path.filename().string(), path.string()});
+                    folders.push_back({nameToUtf8(path.filename().string()), path.string()});
                     break;
                 }
+        } else if (typeOf(path) != fs::file_type::regular) {
+            continue;
         } else if (ending(path) == "xml" || isArchive(path)) {
             scenes.push_back(task);
         } else if (isPicture(path)) {
@@ -123,34 +147,34 @@ std::vector<GradeTask> findTasks(const std::string& reference) {
         }
     }
     std::vector<GradeTask> tasks = !scenes.empty() ? scenes : !folders.empty() ? folders : pictures;
-    if (tasks.empty())
-        throw Error("grade.no-scene", "the reference holds no .xml file or picture",
-                    {reference, 0, 0});
+    if (tasks.empty()) throw Error(message<"grade.no-scene/reference">(), {reference, 0, 0});
     if (tasks.size() == 1) tasks.front().name.clear();
     return tasks;
 }
 
 grade::Subject readSubject(const std::string& path, const std::string& task) {
-    std::map<std::string, std::string> files;
-    std::size_t bytes = 0;
-    if (fs::is_directory(path)) {
-        collect(path, path, {}, files, bytes, 0);
-        return grade::subjectOf(std::move(files), path, task);
-    }
+    if (isFolder(path)) return grade::subjectOf(collect(path, {}), path, task);
     const std::string name = fs::path(path).filename().string();
-    files[name] = readInput(path);
-    return grade::subjectOf(std::move(files), path, isArchive(name) ? task : "");
+    return grade::subjectOf(single(name, readRegularFile(path, kMaxBytes)), path,
+                            isArchive(name) ? task : "");
 }
 
 grade::Subject readReference(const std::string& path, const std::vector<fs::path>& apart) {
-    if (fs::is_directory(path) || endingOf(path) != "xml") return readSubject(path, "");
-    std::map<std::string, std::string> files;
-    std::size_t bytes = 0;
-    collect(folderOf(path), folderOf(path), apart, files, bytes, 0);
+    // Unlike a submission, it may be named by a link.
+    std::error_code failed;
+    const fs::path real = fs::canonical(path, failed);
+    if (failed)
+        throw Error(message<"asset.unreadable/input">("reason"_arg = failed.message()),
+                    {path, 0, 0});
+    if (isFolder(real)) return readSubject(real.string(), "");
+    const std::string name = fs::path(path).filename().string();
+    std::string content = readRegularFile(real.string(), kMaxBytes);
+    if (ending(path) != "xml") return grade::subjectOf(single(name, std::move(content)), path, "");
+    if (content.empty()) throw Error(message<"grade.empty-file/reference">(), {path, 0, 0});
     grade::Subject subject;
-    subject.job.name = fs::path(path).filename().string();
-    subject.job.xml = readInput(path);
-    subject.job.assets = std::make_shared<scene::BundleAssets>(std::move(files));
+    subject.job.name = name;
+    subject.job.xml = std::move(content);
+    subject.job.assets = collect(folderOf(path), apart);
     return subject;
 }
 

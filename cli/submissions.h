@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "grade/grader.h"
+#include "grade/rubric/grader.h"
 
 /// Submissions and references as teachers have them: folders, files, archives.
 namespace farol::cli {
@@ -12,7 +12,7 @@ namespace farol::cli {
 /// One student's submission: an entry of the class's folder.
 struct Submission {
     std::string path;
-    std::string id;      ///< the entry's name
+    std::string id;      ///< the entry's name in UTF-8, unique
     std::string name;    ///< the student's; of Moodle's "Name_id_assignsubmission_file_" folders
     std::string number;  ///< Moodle's identifier
 };
@@ -23,9 +23,10 @@ struct GradeTask {
     std::string path;
 };
 
-/// Entries of the folder, by name: folders, .xml, .zip, .tar, .tar.gz, .tgz and picture files; what
-/// is hidden is left out. Throws Error asset.missing where there is no such folder, grade.no-
-/// submissions where it holds none.
+/// Entries of the folder, by name: folders, .xml, .zip, .tar, .tar.gz, .tgz and picture files, and
+/// whatever else has such a name (a link, a pipe): it is refused when it is read. Hidden entries
+/// are left out. Throws Error asset.missing where there is no such folder, grade.no-submissions
+/// where it holds none.
 std::vector<Submission> findSubmissions(const std::string& folder);
 
 /// A file is the one task. A folder: each of its .xml files is a task (pictures beside them are
@@ -34,9 +35,11 @@ std::vector<GradeTask> findTasks(const std::string& reference);
 
 /// The scene or the picture at `path`, with all files beside or below it in memory. Archives are
 /// left packed: they are opened in the sandbox. Of several .xml files in a folder the one of the
-/// task's name is taken, else scene.xml, else the highest in the folder if it is the only one
+/// task's name is used, else scene.xml, else the highest in the folder if it is the only one
 /// there. `task` may be empty.
-/// Throws Error grade.no-scene, grade.which-scene, limit.bundle, asset.*.
+/// Links are not followed, and nothing but a regular file is opened.
+/// Throws Error grade.no-scene, grade.which-scene, grade.empty-file, limit.bundle,
+/// limit.file-bytes, asset.*.
 grade::Subject readSubject(const std::string& path, const std::string& task);
 
 /// The same for a reference. The files beside its .xml file belong to it, but for the folders

@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "cli/command.h"
+#include "cli/confine.h"
 #include "cli/source.h"
 #include "render/renderer.h"
 #include "server/json.h"
@@ -12,12 +13,10 @@ namespace {
 struct Flags {
     std::string scene, assets;
     bool strict = false;
+    ConfinementFlags confinement;
 };
 
-int run(const Flags& flags, Report& report) {
-    report.setVerbose(true);
-    const render::Job job = openSource(flags.scene, flags.assets, flags.strict);
-    report.setInput(job.name);
+int inspect(const render::Job& job, Report& report) {
     const render::SceneReport facts = render::inspect(job);
     report.add(facts.diagnostics);
     report.merge(server::toJson(facts));
@@ -26,6 +25,14 @@ int run(const Flags& flags, Report& report) {
                   << " triangles, " << facts.lights << " lights, " << facts.textures << " textures"
                   << std::endl;
     return kDone;
+}
+
+int run(const Flags& flags, Report& report) {
+    report.setVerbose(true);
+    const render::Job job = openSource(flags.scene, flags.assets, flags.strict);
+    report.setInput(job.name);
+    const Confinement confinement{flags.confinement, {assetFolder(flags.scene, flags.assets)}, {}};
+    return confine(confinement, report, [&](Outputs&) { return inspect(job, report); });
 }
 
 }  // namespace
@@ -42,6 +49,7 @@ void addValidate(CLI::App& root, Action& action) {
                      "folder of the files that the scene names; default the scene's own")
         ->type_name("DIR");
     command->add_flag("--strict", flags->strict, "takes warnings for errors");
+    addConfinement(*command, flags->confinement);
     command->callback(
         [&action, flags] { action = [flags](Report& report) { return run(*flags, report); }; });
 }

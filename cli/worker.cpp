@@ -1,4 +1,4 @@
-#include "server/worker/worker.h"
+#include "worker/worker.h"
 
 #include <memory>
 
@@ -11,18 +11,24 @@ void addWorker(CLI::App& root, Action& action) {
     CLI::App* command =
         root.add_subcommand("worker", "What serve starts: not for the hand")->group("");
     struct Told {
-        server::worker::SandboxOptions sandbox;
+        worker::SandboxOptions sandbox;
+        double maxCost = 0.0;
         std::string probe;
+        bool asCommandLine = false;
     };
     const auto told = std::make_shared<Told>();
     command->add_option("--scenes", told->sandbox.readable, "folder that may be read");
     command->add_option("--memory", told->sandbox.memoryBytes, "private memory, bytes; 0: no cap");
+    command->add_option("--max-cost", told->maxCost, "of one job, core-seconds; 0: no bound");
     command->add_option("--self-test", told->probe,
                         "a file to try the sandbox on: says what it lets through");
+    command->add_flag("--command-line", told->asCommandLine,
+                      "with --self-test: the sandbox of render, compare, validate and generate");
     command->callback([&action, told] {
         action = [told](Report&) {
-            return told->probe.empty() ? server::worker::runWorker(told->sandbox)
-                                       : server::worker::runSelfTest(told->sandbox, told->probe);
+            return told->probe.empty()
+                       ? worker::runWorker(told->sandbox, told->maxCost)
+                       : worker::runSelfTest(told->sandbox, told->probe, told->asCommandLine);
         };
     });
 }

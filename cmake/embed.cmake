@@ -1,11 +1,11 @@
 # farol_embed(target name file...): makes `std::span<const farol::EmbeddedFile> farol::name()` in
-# the target, holding the files' bytes and base names. Declare it with "scene/embedded.h".
+# the target, holding the files' bytes and base names. Declare it with "core/embedded.h".
 # Run as a script (-DOUT= -DNAME= -DFOLDER=) it does the same for all files below a folder, under
 # their paths in it: for files whose names are known only when they are built.
 
 # The assembler reads the files itself: no megabytes of hexadecimal to compile.
 function(farol_embed_source out name) # NAME_IN_PROGRAM FILE ...
-    set(body "#include \"scene/embedded.h\"\n#include <span>\nnamespace farol {\nnamespace {\n")
+    set(body "#include \"core/embedded.h\"\n#include <span>\nnamespace farol {\nnamespace {\n")
     set(table "")
     set(index 0)
     set(rest ${ARGN})
@@ -29,7 +29,9 @@ function(farol_embed target name)
         list(APPEND pairs ${base} ${file})
     endforeach()
     farol_embed_source(${out} ${name} ${pairs})
-    set_source_files_properties(${out} PROPERTIES OBJECT_DEPENDS "${ARGN}")
+    # On its own: a unity source has no OBJECT_DEPENDS, and a changed file would not be built in.
+    set_source_files_properties(${out} PROPERTIES OBJECT_DEPENDS "${ARGN}"
+                                                  SKIP_UNITY_BUILD_INCLUSION ON)
     target_sources(${target} PRIVATE ${out})
 endfunction()
 

@@ -45,7 +45,9 @@ inline double fraction(std::size_t index, std::size_t count) {
 
 class Builder {
   public:
+    /// Takes memory for so many. Throws Error limit.triangles over the bounds of a mesh.
     explicit Builder(std::size_t vertices = 0, std::size_t triangles = 0) {
+        checkCounts(vertices, triangles);
         mesh_.positions.reserve(vertices);
         mesh_.normals.reserve(vertices);
         mesh_.uvs.reserve(vertices);
@@ -72,11 +74,15 @@ class Builder {
         if (p[a] != p[b] && p[b] != p[c] && p[c] != p[a]) triangle(a, b, c);
     }
 
+    /// What was taken off all positions: Mesh::origin().
+    void origin(const glm::dvec3& place) { mesh_.origin = place; }
+
     std::uint32_t next() const { return static_cast<std::uint32_t>(mesh_.positions.size()); }
-    Mesh take() { return std::move(mesh_); }
+    /// The mesh, checked.
+    Mesh take() { return Mesh(std::move(mesh_)); }
 
   private:
-    Mesh mesh_;
+    MeshArrays mesh_;
 };
 
 }  // namespace farol::generator

@@ -1,21 +1,17 @@
 #include "generator/call.h"
 
-#include <charconv>
 #include <cmath>
 
-#include "generator/entry.h"
-#include "scene/text.h"
+#include "core/did_you_mean.h"
+#include "core/number.h"
+#include "core/text.h"
+#include "generator/registry.h"
+#include "generator/words.h"
 
 namespace farol::generator {
 namespace {
 
-std::string spell(double value) {
-    char text[32];
-    const bool plain = std::abs(value) <= 1e9 && value == std::floor(value);  // 100000, not 1e+05
-    const auto end = plain ? std::to_chars(text, text + sizeof text, static_cast<long>(value)).ptr
-                           : std::to_chars(text, text + sizeof text, value).ptr;
-    return {text, end};
-}
+using Form = scene::ShapeArgument::Form;
 
 /// What the user wrote, quoted and of bounded length.
 std::string quoted(const std::string& word) {
@@ -23,7 +19,7 @@ std::string quoted(const std::string& word) {
     return "\"" + (word.size() > kShown ? word.substr(0, kShown) + "..." : word) + "\"";
 }
 
-[[noreturn]] void refuse(const Shape& shape, const std::string& what) {
+[[noreturn]] void refuse(const ShapeEntry& shape, const std::string& what) {
     throw Error("shape.argument", what + "; usage: " + usageOf(shape));
 }
 
@@ -36,21 +32,30 @@ std::string pointFor(std::string word) {
     return parseNumber(word, value) ? " (write " + quoted(word) + ")" : "";
 }
 
-double readValue(const Shape& shape, const Argument& argument, const std::string& word) {
-    const std::string kind = argument.integer ? "a whole number" : "a number";
+double readValue(const ShapeEntry& shape, const Argument& argument, const std::string& word) {
+    const std::string kind = argument.isInteger() ? "a whole number" : "a number";
     double value = 0;
     if (!parseNumber(word, value) || value < argument.min || value > argument.max ||
-        (argument.integer && value != std::floor(value)))
+        (argument.isInteger() && value != std::floor(value)))
         refuse(shape, "the argument " + argument.name + " of " + shape.name + " must be " + kind +
-                          " from " + spell(argument.min) + " to " + spell(argument.max) + ", not " +
-                          quoted(word) + pointFor(word));
+                          " from " + formatNumber(argument.min) + " to " +
+                          formatNumber(argument.max) + ", not " + quoted(word) + pointFor(word));
     return value;
+}
+
+[[noreturn]] void unknown(const std::string& word) {
+    std::vector<std::string> names;
+    for (const ShapeEntry& shape : shapes()) names.push_back(shape.name);
+    const std::string near = didYouMean(word, names);
+    throw Error("shape.unknown", "there is no shape " + quoted(word) +
+                                     (near.empty() ? "; there are " + joined(names, ", ")
+                                                   : "; did you mean \"" + near + "\"?"));
 }
 
 }  // namespace
 
-std::string usageOf(const Shape& shape) {
-    if (!shape.form.empty()) return shape.form;
+std::string usageOf(const ShapeEntry& shape) {
+    if (!shape.usage.empty()) return shape.usage;
     std::string text = shape.name + (shape.takesFile ? " FILE" : "");
     for (std::size_t i = 0; i < shape.arguments.size(); ++i) {
         const std::string& name = shape.arguments[i].name;
@@ -59,57 +64,68 @@ std::string usageOf(const Shape& shape) {
     return text;
 }
 
-bool parseNumber(const std::string& word, double& value) {
-    const char* begin = word.data();
-    const char* end = begin + word.size();
-    if (end - begin > 1 && *begin == '+' && begin[1] != '-') ++begin;
-    if (end - begin > 1 && (end[-1] == 'f' || end[-1] == 'F')) --end;
-    const auto [stop, failed] = std::from_chars(begin, end, value);
-    return failed == std::errc() && stop == end && begin != end && std::isfinite(value);
+std::string textOf(const ShapeCall& call) {
+    std::string text = call.entry->name;
+    if (call.entry->takesFile)
+        text += isOneWord(call.file) ? " " + call.file : " \"" + call.file + '"';
+    for (const scene::ShapeArgument& argument : call.arguments) {
+        if (argument.form == Form::automatic) text += " auto";
+        if (argument.form == Form::written) text += " " + formatNumber(argument.value);
+    }
+    return text;
 }
 
-Call parseCall(const std::vector<std::string>& words) {
+bool parseNumber(const std::string& word, double& value) {
+    std::string_view digits = word;
+    if (digits.size() > 1 && digits[0] == '+' && digits[1] != '-') digits.remove_prefix(1);
+    if (digits.size() > 1 && lowerCase(digits.back()) == 'f') digits.remove_suffix(1);
+    const auto number = parseExact<double>(digits);
+    value = number.value_or(value);
+    return number.has_value();
+}
+
+ShapeCall parseCall(const std::vector<std::string>& words, std::vector<std::string>* notes) {
     if (words.empty()) throw Error("shape.unknown", "no shape is named");
-    const Shape* shape = findShape(words[0]);
-    if (shape == nullptr) {
-        std::vector<std::string> names;
-        for (const Shape& one : shapes()) names.push_back(one.name);
-        const std::string near = scene::didYouMean(words[0], names);
-        std::string all;
-        for (const std::string& name : names) all += (all.empty() ? "" : ", ") + name;
-        throw Error("shape.unknown",
-                    "there is no shape " + quoted(words[0]) +
-                        (near.empty() ? "; there are " + all : "; did you mean \"" + near + "\"?"));
-    }
-    Call call;
-    call.shape = shape;
+    const ShapeEntry* entry = findShape(words[0]);
+    if (entry == nullptr) unknown(words[0]);
+    ShapeCall call;
+    call.entry = entry;
     std::size_t at = 1;
-    if (shape->takesFile) {
-        if (words.size() < 2) refuse(*shape, shape->name + " needs a file");
+    if (entry->takesFile) {
+        if (words.size() < 2) refuse(*entry, entry->name + " needs a file");
         call.file = words[at++];
     }
-    call.given = words.size() - at;
-    if (call.given > shape->arguments.size())
-        refuse(*shape, shape->name + " takes at most " + std::to_string(shape->arguments.size()) +
-                           " numbers, not " + std::to_string(call.given));
-    if (call.given < shape->required)
-        refuse(*shape, "the argument " + shape->arguments[call.given].name + " of " + shape->name +
-                           " is missing");
-    for (const Argument& own : shape->arguments) {
-        const bool written = at < words.size();
-        const bool last = own.whenLast && call.values.size() + 1 == call.given;
-        const Argument& argument = last ? shape->arguments[*own.whenLast] : own;
-        const std::string word = written ? words[at++] : "";
-        const bool automatic = word == "auto" && argument.level;
-        call.values.push_back(written && !automatic ? readValue(*shape, argument, word)
-                                                    : argument.fallback);
-        if (automatic) call.given = std::min(call.given, call.values.size() - 1);
+    const std::vector<Argument>& arguments = entry->arguments;
+    std::size_t count = words.size() - at;
+    if (count > arguments.size() && notes != nullptr) {
+        notes->push_back(quoted(joined(words, " ")) + " has " + std::to_string(count) +
+                         " numbers; using the first " + std::to_string(arguments.size()) + " (" +
+                         usageOf(*entry) + ")");
+        count = arguments.size();
     }
-    const auto check = entryOf(*shape).check;
-    if (check != nullptr) {
-        const std::string fault = check(call);
-        if (!fault.empty()) refuse(*shape, fault);
+    if (count > arguments.size())
+        refuse(*entry, entry->name + " takes at most " + std::to_string(arguments.size()) +
+                           " numbers, not " + std::to_string(count));
+    if (count < entry->required)
+        refuse(*entry,
+               "the argument " + arguments[count].name + " of " + entry->name + " is missing");
+    for (const Argument& argument : arguments)
+        call.arguments.push_back({Form::omitted, argument.fallback});
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::string& word = words[at + i];
+        const std::size_t meant = i + 1 == count ? arguments[i].whenLast.value_or(i) : i;
+        if (word == "auto" && arguments[meant].isLevel())
+            call.arguments[meant].form = Form::automatic;
+        else
+            call.arguments[meant] = {Form::written, readValue(*entry, arguments[meant], word)};
     }
+    if (notes != nullptr && entry->isExchanged != nullptr && entry->isExchanged(call)) {
+        std::swap(call.arguments[0], call.arguments[1]);
+        notes->push_back(quoted(joined(words, " ")) + " has " + arguments[1].name + " before " +
+                         arguments[0].name + "; using " + quoted(textOf(call)));
+    }
+    const std::string fault = entry->check != nullptr ? entry->check(call) : "";
+    if (!fault.empty()) refuse(*entry, fault);
     return call;
 }
 

@@ -1,28 +1,23 @@
 #pragma once
 
-#include <cstddef>
 #include <string>
 #include <vector>
 
-#include "generator/registry.h"
+#include "generator/entry.h"
 
 namespace farol::generator {
 
-/// A shape's words, read and checked: "cone 1 2 4 3" is {cone, values {1, 2, 4, 3}, given 4}.
-struct Call {
-    const Shape* shape = nullptr;
-    std::string file;            ///< the profile or patch file, where the shape takes one
-    std::vector<double> values;  ///< one an argument, in the order of `Shape::arguments`
-    std::size_t given = 0;       ///< so many were written; the rest are the arguments' defaults
-
-    double length(std::size_t index) const { return values[index]; }
-    std::size_t count(std::size_t index) const { return static_cast<std::size_t>(values[index]); }
-};
-
-/// Reads words such as {"cone", "1", "2", "4", "3"}; level arguments may be left out, or be
+/// Parses words such as {"cone", "1", "2", "4", "3"}; level arguments may be left out, or be
 /// "auto". Throws Error shape.unknown or shape.argument: the message names the argument and its
-/// range.
-Call parseCall(const std::vector<std::string>& words);
+/// range. With `notes`, arguments that are too many are left out and lengths in the other known
+/// order exchanged (ShapeEntry::isExchanged), each with a note; without, they are errors.
+ShapeCall parseCall(const std::vector<std::string>& words,
+                    std::vector<std::string>* notes = nullptr);
+
+/// The text of a call, "cone 1 2 auto 3": parseCall makes the same call of its words, as splitWords
+/// gives them. A file name that is not one word stands in quotes, which splitWords does not put
+/// together again; still no two calls have the same text.
+std::string textOf(const ShapeCall& call);
 
 /// True for a finite number as scenes write it: "000", ".5", "+1", "1e3", "2.5f".
 bool parseNumber(const std::string& word, double& value);

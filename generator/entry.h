@@ -1,30 +1,74 @@
 #pragma once
 
+#include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
-#include "generator/call.h"
 #include "generator/fineness.h"
+#include "generator/mesh.h"
+#include "generator/surface.h"
+#include "scene/scene.h"
 
-/// What a shape's pair of files gives to the registry.
+/// A row of the table of shapes: all that the program knows of one.
 namespace farol::generator {
 
-struct Entry {
-    Shape shape;
-    /// Makes the mesh; the arguments are in range and the triangles within kMaxTriangles.
-    Mesh (*make)(const Call& call, const std::string& fileBytes, scene::UvLayout uv) = nullptr;
-    /// The number of triangles (for a shape with a file, of the parsed file), or more.
-    std::size_t (*count)(const Call& call, const std::string& fileBytes) = nullptr;
-    /// What is wrong with arguments that are each in range but do not go together, or "".
-    std::string (*check)(const Call& call) = nullptr;
-    /// Values of the level arguments, in their order, that keep the fineness.
-    std::vector<double> (*levels)(const Call& call, const std::string& fileBytes,
-                                  const Fineness& fineness) = nullptr;
-    /// The exact surface, where it is one of those that Surface knows.
-    Surface (*surface)(const Call& call, scene::UvLayout uv) = nullptr;
+using scene::ShapeCall;
+
+enum class ArgumentRole {
+    length,  ///< in the scene's units
+    count,   ///< a whole number, honoured as written
+    level,   ///< a whole number, fineness alone: left out or "auto", it may be chosen on demand
 };
 
-/// The entry that `shape` belongs to. Precondition: it is one of shapes().
-const Entry& entryOf(const Shape& shape);
+/// One argument of a shape, for the parser, messages, help, the API and the reference.
+struct Argument {
+    std::string name = {};  ///< "SLICES"
+    ArgumentRole role = ArgumentRole::length;
+    double min = 0, max = 0;  ///< inclusive range
+    std::string help = {};
+    double fallback = 0;  ///< the value where the argument is left out
+    double usual = 1;     ///< the value for a file name that gives no size ("torus.3d")
+    /// The argument that this number is instead where it is the last one: of "box 2 3" the 3 is
+    /// DIV.
+    std::optional<std::size_t> whenLast = {};
+
+    bool isInteger() const { return role != ArgumentRole::length; }
+    bool isLevel() const { return role == ArgumentRole::level; }
+};
+
+/// One shape. `required` arguments come first; the rest have defaults.
+struct ShapeEntry {
+    std::string name = {};
+    std::vector<std::string> aliases = {};
+    std::string summary = {};  ///< its geometry in one sentence
+    std::vector<Argument> arguments = {};
+    std::size_t required = 0;
+    std::string usage = {};        ///< how its arguments are written, where brackets cannot say it
+    bool takesFile = false;        ///< the first word after the name is a profile or patch file
+    std::string fileEnding = {};   ///< ".patch": files that are this shape by their names
+    std::string builtinFile = {};  ///< the file where none is written, with its name as an alias
+    bool isSheet = false;          ///< flat, with faces to one side only
+
+    /// Makes the mesh; the arguments are in range and the triangles within kMaxTriangles.
+    Mesh (*generate)(const ShapeCall& call, const std::string& fileBytes,
+                     scene::UvLayout uv) = nullptr;
+    /// The number of triangles (for a shape with a file, of the parsed file), or more.
+    std::size_t (*count)(const ShapeCall& call, const std::string& fileBytes) = nullptr;
+    /// True where the first two lengths stand in the other order that generators write; the parser
+    /// of scenes exchanges them with a warning. Null: there is one order.
+    bool (*isExchanged)(const ShapeCall& call) = nullptr;
+    /// What is wrong with arguments that are each in range but do not go together, or "". May be
+    /// null.
+    std::string (*check)(const ShapeCall& call) = nullptr;
+    /// The bound on the mesh's error, solved for its divisions: values of the level arguments, in
+    /// their order, that keep the fineness. Null where the mesh is exact.
+    std::vector<double> (*bound)(const ShapeCall& call, const std::string& fileBytes,
+                                 const Fineness& fineness) = nullptr;
+    /// The exact surface that the mesh stands for. Null where the mesh is exact, or no kind of
+    /// surface has its form.
+    Surface (*surface)(const ShapeCall& call, scene::UvLayout uv) = nullptr;
+};
 
 // Ranges that the shapes share. Lengths stay where floats hold a mesh without folding it.
 inline constexpr double kMinLength = 1e-6;
@@ -33,12 +77,17 @@ inline constexpr double kMaxCount = 100'000;
 inline constexpr double kDefaultSlices = 32;
 inline constexpr double kDefaultStacks = 16;
 
-inline Argument lengthArgument(std::string name, std::string help) {
-    return {std::move(name), false, kMinLength, kMaxLength, std::move(help)};
+inline Argument lengthArgument(std::string name, std::string help, double usual = 1) {
+    return {
+        std::move(name), ArgumentRole::length, kMinLength, kMaxLength, std::move(help), 0, usual};
+}
+
+inline Argument countArgument(std::string name, double min, double fallback, std::string help) {
+    return {std::move(name), ArgumentRole::count, min, kMaxCount, std::move(help), fallback};
 }
 
 inline Argument levelArgument(std::string name, double min, double fallback, std::string help) {
-    return {std::move(name), true, min, kMaxCount, std::move(help), fallback, true};
+    return {std::move(name), ArgumentRole::level, min, kMaxCount, std::move(help), fallback};
 }
 
 }  // namespace farol::generator

@@ -1,140 +1,151 @@
+#include "scene/files/resolve.h"
+
 #include <algorithm>
 #include <map>
-#include <tuple>
+#include <optional>
 
+#include "core/number.h"
+#include "core/text.h"
 #include "generator/call.h"
+#include "generator/io/mtl.h"
+#include "generator/messages.h"
 #include "generator/registry.h"
 #include "generator/sources.h"
 #include "generator/words.h"
-#include "scene/words.h"
 
 namespace farol::generator {
 namespace {
 
 using scene::ModelSource;
+using Words = std::vector<std::string>;
 
-/// The ending of a name, in lower case.
-bool endsWith(const std::string& name, const std::string& ending) {
-    if (name.size() < ending.size()) return false;
-    for (std::size_t i = 0; i < ending.size(); ++i) {
-        const char c = name[name.size() - ending.size() + i];
-        if ((c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c) != ending[i]) return false;
-    }
-    return true;
-}
-
-std::string joined(const std::vector<std::string>& words) {
-    std::string text;
-    for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
-    return text;
-}
-
-class Resolver {
+/// Finds the file or the shape that a model means.
+class ModelFinder {
   public:
-    Resolver(scene::Scene& scene, const scene::Assets& assets, Diagnostics& diagnostics)
-        : scene_(scene), assets_(assets), diagnostics_(diagnostics) {}
+    ModelFinder(const std::map<std::string, Words>& comments, const scene::Assets& assets,
+                scene::Locator& locator, Diagnostics& diagnostics)
+        : comments_(comments), assets_(assets), locator_(locator), diagnostics_(diagnostics) {}
 
-    void run() {
-        for (scene::Group& group : scene_.groups) visit(group);
-        if (!scene_.background.file.empty())
-            resolveFile(scene_.background.file, scene_.background.path, "background",
-                        scene_.background.where);
-        if (scene_.skybox)
-            resolveFile(scene_.skybox->file, scene_.skybox->path, "skybox texture",
-                        scene_.skybox->where);
+    /// Throws Error where the model cannot be had.
+    ModelSource find(const scene::Model& model) {
+        if (model.revolve)
+            return shape(parseCall({"revolution", model.file, std::to_string(*model.revolve)}),
+                         model, "a profile to revolve");
+        const auto path = model.file.empty()
+                              ? std::nullopt
+                              : locator_.locate(model.file, model.where, diagnostics_);
+        if (path) {
+            report(Severity::info, "asset.from-file", model.where,
+                   "\"" + model.file + "\" is the file \"" + *path + "\"");
+            if (const ShapeEntry* entry = shapeOfFile(*path))
+                return {ModelSource::Kind::shape, *path, parseCall({entry->name, *path})};
+            ModelSource source{ModelSource::Kind::file, *path};
+            source.materials = materialsOf(*path, model.where);
+            source.fallback = fallbackOf(model);
+            return source;
+        }
+        if (!model.command.empty())
+            return shape(parseComment(splitWords(model.command), "", model.where, diagnostics_),
+                         model, "its command");
+        const auto named = wordsOfName(model.file);
+        if (const Words* words = comment(model.file))
+            if (const auto source = fromComment(*words, named, model)) return *source;
+        if (named) return fromName(*named, model);
+        if (builtinFile(model.file)) {
+            const std::string file(baseName(model.file));
+            return shape(parseCall({shapeOfFile(file)->name, file}), model, "a built-in file");
+        }
+        throw Error("asset.missing",
+                    "there is no file \"" + model.file +
+                        "\", no generator comment for it, and its name is no shape's" +
+                        advice(model.file, model.where, shapeNames(model.file)));
     }
 
   private:
-    void visit(scene::Group& group) {
-        for (scene::Model& model : group.models) {
-            resolveModel(model);
-            // In the 2017 engines a plane has a second face that looks down.
-            if (scene_.dialect == scene::Dialect::engine2017 && !model.source.words.empty() &&
-                model.source.words[0] == "plane")
-                model.twoSided = true;
-            if (model.texture && !model.texture->chess)
-                resolveFile(model.texture->file, model.texture->path, "texture",
-                            model.texture->where);
-        }
-        for (scene::Group& child : group.groups) visit(child);
-    }
-
     void report(Severity severity, const std::string& code, const Location& where,
                 const std::string& message) {
         diagnostics_.push_back({severity, code, where, message, ""});
     }
 
-    /// What was found once holds for every model and texture of the same words: asking the
-    /// bundle again would repeat its warnings. What is missing is reported at each place.
-    void resolveFile(const std::string& file, std::string& path, const std::string& what,
-                     const Location& where) {
-        const auto [known, fresh] = files_.try_emplace(file);
-        if (fresh) {
-            known->second.path = scene::locate(assets_, file, where, diagnostics_);
-            if (!known->second.path) known->second.hint = cure(file, {});
-        }
-        if (known->second.path)
-            path = *known->second.path;
-        else
-            report(Severity::error, "asset.missing", where,
-                   "there is no " + what + " \"" + file + "\"" + known->second.hint);
-    }
-
-    void resolveModel(scene::Model& model) {
-        const auto [known, fresh] =
-            models_.try_emplace({model.file, model.command, model.revolve.value_or(0)});
-        if (fresh) {
-            try {
-                known->second.source = find(model);
-            } catch (const Error& error) {
-                known->second.fault = error.primary();
+    /// The materials of an OBJ file; null where it names none. What cannot be read is a warning,
+    /// and those parts have the scene's own colours.
+    std::shared_ptr<const std::vector<scene::PartMaterial>> materialsOf(const std::string& path,
+                                                                        const Location& where) {
+        if (fileEnding(path) != "obj") return nullptr;
+        const std::optional<std::string> bytes = assets_.read(path);
+        if (!bytes) return nullptr;
+        std::vector<scene::PartMaterial> all;
+        for (const std::string& name : io::materialLibraries(*bytes)) {
+            const std::optional<std::string> file = beside(path, name, where);
+            const std::optional<std::string> text = file ? assets_.read(*file) : std::nullopt;
+            if (!text) {
+                diagnostics_.push_back(diagnosticOf(
+                    Severity::warning,
+                    message<"mesh.material/file">("file"_arg = name, "mesh"_arg = path), where));
+                continue;
+            }
+            for (scene::PartMaterial& one : io::parseMtl(*text, *file, diagnostics_)) {
+                if (one.texture) findTexture(one, *file, where);
+                all.push_back(std::move(one));
             }
         }
-        if (known->second.fault.code.empty())
-            model.source = known->second.source;
-        else
-            report(Severity::error, known->second.fault.code, model.where,
-                   known->second.fault.message);
+        if (all.empty()) return nullptr;
+        return std::make_shared<const std::vector<scene::PartMaterial>>(std::move(all));
     }
 
-    /// Throws Error where the model cannot be had.
-    ModelSource find(const scene::Model& model) {
-        if (model.revolve)
-            return shape({"revolution", model.file, std::to_string(*model.revolve)}, model,
-                         "a profile to revolve");
-        const auto path = model.file.empty()
-                              ? std::nullopt
-                              : scene::locate(assets_, model.file, model.where, diagnostics_);
-        if (path) {
-            report(Severity::info, "asset.from-file", model.where,
-                   "\"" + model.file + "\" is the file \"" + *path + "\"");
-            if (endsWith(*path, ".patch"))
-                return {ModelSource::Kind::shape, *path, {"patch", *path}};
-            return {ModelSource::Kind::file, *path, {}};
+    void findTexture(scene::PartMaterial& part, const std::string& library, const Location& where) {
+        const std::optional<std::string> file = beside(library, part.texture->file, where);
+        if (file) {
+            part.texture->path = *file;
+            return;
         }
-        if (!model.command.empty()) {
-            const auto words =
-                wordsOfComment(splitWords(model.command), "", model.where, diagnostics_);
-            return shape(words, model, "its command");
+        diagnostics_.push_back(
+            diagnosticOf(Severity::warning,
+                         message<"mesh.material/texture">("file"_arg = part.texture->file,
+                                                          "material"_arg = part.name),
+                         part.texture->where));
+        part.texture.reset();
+    }
+
+    /// Finds a file that the file `file` names. Findings are at `where`, in the scene.
+    std::optional<std::string> beside(const std::string& file, const std::string& name,
+                                      const Location& where) {
+        Diagnostics found;
+        std::optional<std::string> path = locator_.locate(name, {file, 0, 0}, found);
+        for (Diagnostic& one : found) {
+            one.where = where;
+            diagnostics_.push_back(std::move(one));
         }
+        return path;
+    }
+
+    /// The shape that a home-made mesh file's name or comment says, for when its form is unknown.
+    std::optional<ShapeCall> fallbackOf(const scene::Model& model) {
+        if (fileEnding(model.file) != "3d") return std::nullopt;
+        Diagnostics unheard;  // of a guess that is seldom used
+        const Words* words = comment(model.file);
         const auto named = wordsOfName(model.file);
-        if (const auto* words = comment(model.file))
-            if (const auto taken = fromComment(*words, named, model)) return *taken;
-        if (named) return fromName(*named, model);
-        if (builtinFile(model.file))
-            return shape({"patch", baseNameOf(model.file)}, model, "a built-in file");
-        throw Error("asset.missing",
-                    "there is no file \"" + model.file +
-                        "\", no generator comment for it, and its name is no shape's" +
-                        cure(model.file, shapeNames(model.file)));
+        for (const bool byComment : {true, false}) {
+            try {
+                if (byComment && words == nullptr) continue;
+                if (!byComment && (!named || named->size() < 2)) continue;
+                const ShapeCall call = byComment
+                                           ? parseComment(*words, model.file, model.where, unheard)
+                                           : parseCall(*named);
+                if (call.entry->takesFile) continue;
+                countTriangles(call, assets_);  // throws over the limit
+                return call;
+            } catch (const Error&) {  // then it says nothing
+            }
+        }
+        return std::nullopt;
     }
 
     /// A comment that makes no sense counts for nothing where the name itself says all.
-    std::optional<ModelSource> fromComment(const std::vector<std::string>& words,
-                                           const std::optional<std::vector<std::string>>& named,
+    std::optional<ModelSource> fromComment(const Words& words, const std::optional<Words>& named,
                                            const scene::Model& model) {
         try {
-            return shape(wordsOfComment(words, model.file, model.where, diagnostics_), model,
+            return shape(parseComment(words, model.file, model.where, diagnostics_), model,
                          "its generator comment");
         } catch (const Error& error) {
             if (!named || named->size() < 2) throw;
@@ -144,97 +155,92 @@ class Resolver {
         }
     }
 
-    /// "sphere.3d" alone says no size: the unit one is taken, and said to be a guess.
-    ModelSource fromName(std::vector<std::string> words, const scene::Model& model) {
-        const Shape* named = findShape(words[0]);
+    /// "sphere.3d" alone says no size: the usual one is taken, and said to be a guess.
+    ModelSource fromName(Words words, const scene::Model& model) {
+        const ShapeEntry* named = findShape(words[0]);
         if (words.size() == 1 && named != nullptr) {
-            for (std::size_t i = 0; i < named->required; ++i) words.push_back(unitOf(*named, i));
+            if (locator_.leadsOut(model.file, model.where))
+                report(Severity::warning, "asset.outside", model.where,
+                       farol::quoted(model.file) + " cannot be read" +
+                           locator_.advice(model.file, model.where));
+            for (std::size_t i = 0; i < named->required; ++i)
+                words.push_back(formatNumber(named->arguments[i].usual));
             report(Severity::warning, "shape.guessed", model.where,
-                   "\"" + model.file + "\" does not exist and its name gives no size: \"" +
-                       joined(words) + "\" is taken");
+                   farol::quoted(model.file) + " does not exist and its name gives no size; " +
+                       farol::quoted(textOf(parseCall(words))) + " is drawn");
         }
-        return shape(words, model, "its name");
+        std::vector<std::string> notes;
+        const ShapeCall call = parseCall(words, &notes);
+        for (const std::string& note : notes)
+            report(Severity::warning, "shape.argument", model.where, note);
+        return shape(call, model, "its name");
     }
 
-    /// Sizes that give every shape its usual form within about one unit.
-    static std::string unitOf(const Shape& shape, std::size_t argument) {
-        const bool second = argument == 1;
-        if (shape.name == "torus" || shape.name == "frustum") return second ? "0.5" : "1";
-        if (shape.name == "ring") return second ? "1" : "0.5";
-        return "1";
-    }
-
-    ModelSource shape(const std::vector<std::string>& words, const scene::Model& model,
-                      const std::string& why) {
-        const Call call = parseCall(words);
-        ModelSource source{ModelSource::Kind::shape, "", words};
-        source.words[0] = call.shape->name;
-        if (call.shape->takesFile) {
-            if (const auto path = scene::locate(assets_, call.file, model.where, diagnostics_))
+    ModelSource shape(const ShapeCall& call, const scene::Model& model, const std::string& why) {
+        ModelSource source{ModelSource::Kind::shape, "", call, call.entry->isSheet};
+        if (call.entry->takesFile) {
+            if (const auto path = locator_.locate(call.file, model.where, diagnostics_))
                 source.path = *path;
             else if (!builtinFile(call.file))
-                throw Error("asset.missing",
-                            "there is no file \"" + call.file + "\"" + cure(call.file, {}));
+                throw Error("asset.missing", "there is no file \"" + call.file + "\"" +
+                                                 advice(call.file, model.where, {}));
         } else {
-            countTriangles(words, assets_);  // throws over the limit
+            countTriangles(call, assets_);  // throws over the limit
         }
         const std::string name = model.file.empty() ? "a model" : "\"" + model.file + "\"";
         report(Severity::info, "asset.generated", model.where,
-               name + " is made by \"" + joined(source.words) + "\" (" + why + ")");
+               name + " is made by \"" + textOf(call) + "\" (" + why + ")");
         return source;
     }
 
-    const std::vector<std::string>* comment(const std::string& file) const {
-        const auto& comments = scene_.generatorComments;
-        const std::string base = baseNameOf(file);
-        auto found = comments.find(file);
-        if (found == comments.end()) found = comments.find(base);
-        if (found == comments.end())  // as file names of some systems, whatever the case
-            found = std::find_if(comments.begin(), comments.end(), [&](const auto& entry) {
-                return scene::sameWord(entry.first, base);
-            });
-        return found == comments.end() ? nullptr : &found->second;
+    const Words* comment(const std::string& file) {
+        const std::string base(baseName(file));
+        auto found = comments_.find(file);
+        if (found == comments_.end()) found = comments_.find(base);
+        if (found != comments_.end()) return &found->second;
+        if (!alike_) {  // as file names of some systems, whatever the case
+            alike_.emplace();
+            for (const auto& [name, words] : comments_) alike_->emplace(lowerCase(name), &words);
+        }
+        const auto alike = alike_->find(lowerCase(base));
+        return alike == alike_->end() ? nullptr : alike->second;
     }
 
     /// Names that `file` may have meant: its own with each shape's name in front.
-    static std::vector<std::string> shapeNames(const std::string& file) {
-        const std::string base = baseNameOf(file);
+    static Words shapeNames(const std::string& file) {
+        const std::string base(baseName(file));
         const std::string rest = base.substr(std::min(base.find_first_of("_."), base.size()));
-        std::vector<std::string> names;
-        for (const Shape& one : shapes()) names.push_back(one.name + rest);
+        Words names;
+        for (const ShapeEntry& shape : shapes()) names.push_back(shape.name + rest);
         return names;
     }
 
     /// What to do about a file that is not there: the nearest name, if any is near.
-    std::string cure(const std::string& file, const std::vector<std::string>& candidates) const {
-        std::string points = baseNameOf(file);
+    std::string advice(const std::string& file, const Location& where, Words candidates) {
+        const std::string base(baseName(file));
+        std::string points = base;
         std::replace(points.begin(), points.end(), ',', '.');
-        if (points != baseNameOf(file) && wordsOfName(points))
+        if (points != base && wordsOfName(points))
             return "; write a point for the comma: \"" + points + "\"";
-        const std::string near = nearestFile(file, assets_, candidates);
-        return near.empty() ? "; add it to the scene's files, or mend the name" : near;
+        for (std::string& name : builtinNames()) candidates.push_back(std::move(name));
+        return locator_.advice(file, where, std::move(candidates));
     }
 
-    struct FoundFile {
-        std::optional<std::string> path;
-        std::string hint;
-    };
-    struct FoundModel {
-        ModelSource source;
-        Diagnostic fault{Severity::error, "", {}, "", ""};
-    };
-
-    scene::Scene& scene_;
+    const std::map<std::string, Words>& comments_;
     const scene::Assets& assets_;
+    scene::Locator& locator_;
     Diagnostics& diagnostics_;
-    std::map<std::string, FoundFile> files_;
-    std::map<std::tuple<std::string, std::string, int>, FoundModel> models_;
+    /// Generator comments by their names in lower case, made when first asked for.
+    std::optional<std::map<std::string, const Words*>> alike_;
 };
 
 }  // namespace
 
 void resolve(scene::Scene& scene, const scene::Assets& assets, Diagnostics& diagnostics) {
-    Resolver(scene, assets, diagnostics).run();
+    scene::Locator locator(assets, scene.document);
+    ModelFinder finder(scene.generatorComments, assets, locator, diagnostics);
+    scene::resolveFiles(
+        scene, locator, [&](const scene::Model& model) { return finder.find(model); }, diagnostics);
     if (scene.entity) resolve(*scene.entity, assets, diagnostics);
 }
 

@@ -1,57 +1,43 @@
 #include "generator/words.h"
 
 #include <algorithm>
+#include <iterator>
 
-#include "generator/call.h"
-#include "generator/sources.h"
-#include "scene/words.h"
+#include "core/text.h"
+#include "generator/registry.h"
 
 namespace farol::generator {
 namespace {
 
-using scene::sameWord;
-
-constexpr std::size_t kMaxWords = 16;
-
-std::string joined(const std::vector<std::string>& words) {
-    std::string text;
-    for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
-    return text;
-}
+constexpr std::ptrdiff_t kMaxWords = 16;
+constexpr std::string_view kSeparators = " \t\r\n,\"'";
 
 bool isNumber(const std::string& word) {
     double value = 0;
     return parseNumber(word, value) || word == "auto";
 }
 
-std::vector<std::string> split(const std::string& text, const std::string& separators) {
-    std::vector<std::string> words;
-    for (std::size_t at = 0; at < text.size() && words.size() < kMaxWords;) {
-        const std::size_t begin = text.find_first_not_of(separators, at);
-        if (begin == std::string::npos) break;
-        at = std::min(text.find_first_of(separators, begin), text.size());
-        words.push_back(text.substr(begin, at - begin));
-    }
-    return words;
+std::vector<std::string> split(const std::string& text, std::string_view separators) {
+    const auto words = farol::split(text, separators);
+    return {words.begin(), words.begin() + std::min<std::ptrdiff_t>(kMaxWords, std::ssize(words))};
 }
 
 /// "box" of "box_2_3.3d": the name up to its first underscore, digit or dot.
 std::string leadingWord(const std::string& fileName) {
-    const std::string base = baseNameOf(fileName);
+    const std::string base(baseName(fileName));
     return base.substr(0, base.find_first_of("_-.0123456789 "));
 }
 
-constexpr std::string_view kTeapot = "teapot";
-constexpr const char* kTeapotFile = "teapot.patch";
-
-bool isPatch(const std::string& word) {
-    const Shape* shape = findShape(word);
-    return shape != nullptr && shape->name == "patch";
+/// "teapot" of "teapot.patch".
+std::string_view stemOf(std::string_view fileName) {
+    return fileName.substr(0, std::min(fileName.rfind('.'), fileName.size()));
 }
 
-bool isPatchFile(const std::string& word) {
-    const std::size_t dot = word.rfind('.');
-    return dot != std::string::npos && sameWord(word.substr(dot), ".patch");
+/// The shape whose built-in file the word means by its stem: "teapot" is patch.
+const ShapeEntry* shapeOfBuiltin(const std::string& word) {
+    for (const ShapeEntry& shape : shapes())
+        if (!shape.builtinFile.empty() && sameWord(word, stemOf(shape.builtinFile))) return &shape;
+    return nullptr;
 }
 
 /// Without its ending: of "sphere_1.5_8_8" the dot is a number's.
@@ -64,39 +50,39 @@ std::string withoutEnding(const std::string& name) {
 }
 
 /// "bezier_10", "teapot_10", "bezier_comet_10", "teapot_patch_10": numbers, and the name of a
-/// file of patches, which is the teapot's where none is.
-std::optional<std::vector<std::string>> patchOfName(const std::vector<std::string>& words) {
+/// file of patches, which is the built-in one where none is.
+std::optional<std::vector<std::string>> fileShapeOfName(const ShapeEntry& shape,
+                                                        const std::vector<std::string>& words) {
     std::vector<std::string> numbers;
     std::string file;
     for (const std::string& word : words) {
         if (isNumber(word))
             numbers.push_back(word);
-        else if (isPatch(word))
+        else if (findShape(word) == &shape)
             continue;
         else if (file.empty())
-            file = sameWord(word, kTeapot) ? kTeapotFile : word + ".patch";
+            file = shapeOfBuiltin(word) == &shape ? shape.builtinFile : word + shape.fileEnding;
         else
             return std::nullopt;
     }
-    std::vector<std::string> out = {"patch", file.empty() ? kTeapotFile : file};
+    std::vector<std::string> out = {shape.name, file.empty() ? shape.builtinFile : file};
     out.insert(out.end(), numbers.begin(), numbers.end());
     return out;
 }
 
-/// Counts first, then lengths: the order of some older generators.
-std::optional<std::vector<std::string>> countsLast(const std::vector<std::string>& words,
-                                                   const Shape& shape) {
+/// Parses counts first, then lengths: the order of some older generators.
+std::optional<ShapeCall> parseCountsFirst(const std::vector<std::string>& words,
+                                          const ShapeEntry& shape,
+                                          std::vector<std::string>& notes) {
     const auto counts =
-        static_cast<std::ptrdiff_t>(std::count_if(shape.arguments.begin(), shape.arguments.end(),
-                                                  [](const Argument& one) { return one.integer; }));
-    const auto given = static_cast<std::ptrdiff_t>(words.size()) - 1;
-    if (shape.takesFile || counts == 0 || given != std::ptrdiff_t(shape.arguments.size()))
+        std::count_if(shape.arguments.begin(), shape.arguments.end(),
+                      [](const Argument& argument) { return argument.isInteger(); });
+    if (shape.takesFile || counts == 0 || words.size() - 1 != shape.arguments.size())
         return std::nullopt;
     std::vector<std::string> turned = words;
     std::rotate(turned.begin() + 1, turned.begin() + 1 + counts, turned.end());
     try {
-        parseCall(turned);
-        return turned;
+        return parseCall(turned, &notes);
     } catch (const Error&) {
         return std::nullopt;  // the caller reports the order as written
     }
@@ -104,54 +90,77 @@ std::optional<std::vector<std::string>> countsLast(const std::vector<std::string
 
 }  // namespace
 
-std::vector<std::string> splitWords(const std::string& text) { return split(text, " \t\r\n,\"'"); }
+std::vector<std::string> splitWords(const std::string& text) { return split(text, kSeparators); }
+
+bool isOneWord(const std::string& text) {
+    return !text.empty() && text.find_first_of(kSeparators) == std::string::npos;
+}
 
 std::optional<std::vector<std::string>> wordsOfName(const std::string& fileName) {
-    const std::string base = baseNameOf(fileName);
+    const std::string base(baseName(fileName));
     std::vector<std::string> words = split(withoutEnding(base), "_ ");
     if (words.empty() || (words.size() == 1 && words[0] == base)) return std::nullopt;
-    if (sameWord(words[0], kTeapot) || isPatch(words[0])) return patchOfName(words);
-    const Shape* shape = findShape(words[0]);
-    if (shape == nullptr || shape->takesFile)  // a profile's name cannot stand in it
-        return std::nullopt;
+    const ShapeEntry* builtin = shapeOfBuiltin(words[0]);
+    const ShapeEntry* shape = builtin != nullptr ? builtin : findShape(words[0]);
+    if (shape == nullptr) return std::nullopt;
+    if (!shape->builtinFile.empty()) return fileShapeOfName(*shape, words);
+    if (shape->takesFile) return std::nullopt;  // a profile's name cannot stand in it
     for (std::size_t i = 1; i < words.size(); ++i)
         if (!isNumber(words[i])) return std::nullopt;
     return words;
 }
 
-std::vector<std::string> wordsOfComment(std::vector<std::string> words, const std::string& fileName,
-                                        const Location& where, Diagnostics& diagnostics) {
+const ShapeEntry* shapeOfFile(const std::string& fileName) {
+    const std::string ending = "." + fileEnding(fileName);
+    for (const ShapeEntry& shape : shapes())
+        if (shape.fileEnding == ending) return &shape;
+    return nullptr;
+}
+
+ShapeCall parseComment(std::vector<std::string> words, const std::string& fileName,
+                       const Location& where, Diagnostics& diagnostics) {
     if (words.size() > 1 && sameWord(words[0], "generator")) words.erase(words.begin());
-    if (!words.empty() && (sameWord(words[0], kTeapot) || isPatchFile(words[0])))
-        words.insert(words.begin(), "patch");
-    if (words.size() > 1 && isPatch(words[0]) && sameWord(words[1], kTeapot))
-        words[1] = kTeapotFile;
+    if (!words.empty()) {
+        const ShapeEntry* builtin = shapeOfBuiltin(words[0]);
+        const ShapeEntry* meant = builtin != nullptr ? builtin : shapeOfFile(words[0]);
+        if (meant != nullptr) words.insert(words.begin(), meant->name);
+    }
     if (words.empty() || findShape(words[0]) == nullptr) {
         const std::string named = leadingWord(fileName);
         // A word that is no number is a shape's name that does not exist: let it be reported.
         if ((words.empty() || isNumber(words[0])) && findShape(named) != nullptr)
             words.insert(words.begin(), named);
     }
-    const Shape* shape = words.empty() ? nullptr : findShape(words[0]);
+    const ShapeEntry* shape = words.empty() ? nullptr : findShape(words[0]);
     if (shape != nullptr && shape->takesFile) {
+        if (words.size() > 1 && shapeOfBuiltin(words[1]) == shape) words[1] = shape->builtinFile;
         const auto file = std::find_if_not(words.begin() + 1, words.end(), isNumber);
-        if (file == words.end() && shape->name == "patch")
-            words.insert(words.begin() + 1, kTeapotFile);
-        else if (file != words.end())
+        if (file != words.end())
             std::rotate(words.begin() + 1, file, file + 1);
+        else if (!shape->builtinFile.empty())
+            words.insert(words.begin() + 1, shape->builtinFile);
     }
+    const auto report = [&](const std::vector<std::string>& notes) {
+        for (const std::string& note : notes)
+            diagnostics.push_back({Severity::warning, "shape.argument", where, note, ""});
+    };
+    std::vector<std::string> notes;
     try {
-        parseCall(words);
+        const ShapeCall call = parseCall(words, &notes);
+        report(notes);
+        return call;
     } catch (const Error&) {
-        const auto turned = shape != nullptr ? countsLast(words, *shape) : std::nullopt;
+        notes.clear();
+        auto turned = shape != nullptr ? parseCountsFirst(words, *shape, notes) : std::nullopt;
         if (!turned) throw;
+        report(notes);
         diagnostics.push_back({Severity::warning, "shape.order", where,
-                               "\"" + joined(words) + "\" gives counts before lengths: read as \"" +
-                                   joined(*turned) + "\"",
+                               "\"" + joined(words, " ") +
+                                   "\" gives counts before lengths: read as \"" + textOf(*turned) +
+                                   "\"",
                                ""});
         return *turned;
     }
-    return words;
 }
 
 }  // namespace farol::generator

@@ -4,9 +4,10 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 
-#include "scene/text.h"
-#include "scene/words.h"
+#include "core/did_you_mean.h"
+#include "core/text.h"
 
 namespace farol::render {
 namespace {
@@ -14,8 +15,7 @@ namespace {
 [[noreturn]] void outOfRange(const std::string& name, const std::string& value,
                              const std::string& range) {
     throw Error("option.range",
-                name + "=" + scene::shown(value) + " is not valid: " + name + " takes " + range, {},
-                name);
+                name + "=" + shown(value) + " is not valid: " + name + " takes " + range, {}, name);
 }
 
 double parseNumber(const std::string& name, const std::string& text, double min, double max,
@@ -67,137 +67,231 @@ glm::dvec3 parseVector(const std::string& name, const std::string& text) {
     return value;
 }
 
-template <typename Enum, std::size_t N>
-Enum parseName(const std::string& name, const std::string& text,
-               const std::array<std::pair<const char*, Enum>, N>& names) {
-    std::string all;
-    for (const auto& [word, value] : names) {
-        if (text == word) return value;
-        all += (all.empty() ? "" : "|") + std::string(word);
-    }
-    outOfRange(name, text, all);
+template <typename Enum>
+using Words = std::vector<std::pair<std::string_view, Enum>>;
+
+template <typename Enum, Enum kLast>
+Words<Enum> wordsOf(const EnumWords<Enum, kLast>& table) {
+    Words<Enum> words;
+    for (std::size_t i = 0; i < table.kSize; ++i)
+        words.emplace_back(table.all()[i], static_cast<Enum>(i));
+    return words;
 }
 
-constexpr std::array<std::pair<const char*, scene::Shading>, 7> kShadings{
-    {{"points", scene::Shading::points},
-     {"wireframe", scene::Shading::wireframe},
-     {"solid", scene::Shading::solid},
-     {"chess", scene::Shading::chess},
-     {"flat", scene::Shading::flat},
-     {"gouraud", scene::Shading::gouraud},
-     {"phong", scene::Shading::phong}}};
-constexpr std::array<std::pair<const char*, scene::Filter>, 4> kFilters{
-    {{"nearest", scene::Filter::nearest},
-     {"linear", scene::Filter::linear},
-     {"mipmap", scene::Filter::mipmap},
-     {"anisotropic", scene::Filter::anisotropic}}};
-constexpr std::array<std::pair<const char*, Format>, 3> kFormats{
-    {{"png", Format::png}, {"jpeg", Format::jpeg}, {"webp", Format::webp}}};
-constexpr std::array<std::pair<const char*, Layer>, 4> kLayers{{{"color", Layer::color},
-                                                                {"depth", Layer::depth},
-                                                                {"normal", Layer::normal},
-                                                                {"id", Layer::id}}};
-constexpr std::array<std::pair<const char*, scene::Viewer>, 2> kViewers{
-    {{"infinite", scene::Viewer::infinite}, {"local", scene::Viewer::local}}};
+/// "1e-6", "4096", "1e12".
+std::string shortNumber(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%g", value);
+    std::string out = text;
+    const std::size_t e = out.find('e');
+    if (e == std::string::npos) return out;
+    const std::string sign = out[e + 1] == '-' ? "-" : "";
+    return out.substr(0, e + 1) + sign + out.substr(out.find_first_not_of('0', e + 2));
+}
 
-using O = PictureOptions;
-using S = const std::string;
+OptionSpec row(const std::string& name, OptionType type, const std::string& range,
+               const std::string& help, const std::string& details) {
+    OptionSpec spec;
+    spec.name = name;
+    spec.type = type;
+    spec.range = range;
+    spec.help = help;
+    spec.details = details;
+    return spec;
+}
 
-const std::array<OptionSpec, 29> kSpecs{{
-    {"width", "1..4096 px", "picture width; default the scene's window, else 512",
-     [](O& o, S& v) { o.width = parseInt("width", v, 1, kMaxSide, "1..4096 px"); }},
-    {"height", "1..4096 px", "picture height; default the scene's window, else 512",
-     [](O& o, S& v) { o.height = parseInt("height", v, 1, kMaxSide, "1..4096 px"); }},
-    {"eye", "x,y,z", "camera position, world units",
-     [](O& o, S& v) { o.eye = parseVector("eye", v); }},
-    {"target", "x,y,z", "point looked at, world units",
-     [](O& o, S& v) { o.target = parseVector("target", v); }},
-    {"up", "x,y,z", "direction that is up in the picture",
-     [](O& o, S& v) { o.up = parseVector("up", v); }},
-    {"azimuth", "-36000..36000 degrees", "orbit about the target: longitude, 0 is from +Z",
-     [](O& o, S& v) {
-         o.azimuthDeg = parseNumber("azimuth", v, -36000, 36000, "-36000..36000 degrees");
-     }},
-    {"elevation", "-90..90 degrees", "orbit about the target: latitude, 90 is from above",
-     [](O& o, S& v) { o.elevationDeg = parseNumber("elevation", v, -90, 90, "-90..90 degrees"); }},
-    {"distance", "1e-6..1e12", "orbit about the target: distance, world units",
-     [](O& o, S& v) { o.distance = parseNumber("distance", v, 1e-6, kFar, "1e-6..1e12"); }},
-    {"fov", "0.01..179 degrees", "vertical field of view",
-     [](O& o, S& v) { o.fovDeg = parseNumber("fov", v, 0.01, 179, "0.01..179 degrees"); }},
-    {"near", "1e-6..1e12", "nearest distance drawn, world units",
-     [](O& o, S& v) { o.near = parseNumber("near", v, 1e-6, kFar, "1e-6..1e12"); }},
-    {"far", "1e-6..1e12", "farthest distance drawn, world units, more than near",
-     [](O& o, S& v) { o.far = parseNumber("far", v, 1e-6, kFar, "1e-6..1e12"); }},
-    {"time", "-1e9..1e9 s", "moment of the animation; default 0",
-     [](O& o, S& v) { o.timeS = parseNumber("time", v, -1e9, 1e9, "-1e9..1e9 s"); }},
-    {"shading", "points|wireframe|solid|chess|flat|gouraud|phong",
-     "default: by what the scene holds",
-     [](O& o, S& v) { o.shading = parseName("shading", v, kShadings); }},
-    {"aa", "1|2|4|8|16 samples",
-     "antialiasing, samples a pixel; 8 and 16 are shaded each; default by error, 4",
-     [](O& o, S& v) {
-         const int n = parseInt("aa", v, 1, 16, "1|2|4|8|16 samples");
-         if ((n & (n - 1)) != 0) outOfRange("aa", v, "1|2|4|8|16 samples");
-         o.samples = n;
-     }},
-    {"filter", "nearest|linear|mipmap|anisotropic", "texture filter; default mipmap",
-     [](O& o, S& v) { o.filter = parseName("filter", v, kFilters); }},
-    {"error", "0.01..64 px", "tessellation on demand: greatest error; default 0.25",
-     [](O& o, S& v) { o.errorPx = parseNumber("error", v, 0.01, 64, "0.01..64 px"); }},
-    {"budget_ms", "0.1..60000 ms",
-     "chooses aa and error, where they are not given, by the expected time of a frame",
-     [](O& o, S& v) { o.budgetMs = parseNumber("budget_ms", v, 0.1, 60000, "0.1..60000 ms"); }},
-    {"axes", "0 or 1", "draws the axes: X red, Y green, Z blue",
-     [](O& o, S& v) { o.axes = parseFlag("axes", v); }},
-    {"curves", "0 or 1", "draws the curves that groups move along",
-     [](O& o, S& v) { o.curves = parseFlag("curves", v); }},
-    {"focus", "0 or 1", "draws a white cube at the camera's target",
-     [](O& o, S& v) { o.focus = parseFlag("focus", v); }},
-    {"debug", "0 or 1", "writes what was drawn into the picture",
-     [](O& o, S& v) { o.debug = parseFlag("debug", v); }},
-    {"background", "#rrggbb, r,g,b (0..255), a colour's name, transparent, or a picture's file",
-     "what stands behind everything; default black",
-     [](O& o, S& v) {
-         if (v.empty() || v.size() > 1024)
-             outOfRange("background", v.substr(0, 40), "a colour, transparent, or a file's name");
-         o.background = v;
-     }},
-    {"entity", "a scene file of the bundle", "drawn before the third-person camera",
-     [](O& o, S& v) {
-         if (v.empty() || v.size() > 1024)
-             outOfRange("entity", v.substr(0, 40), "a scene file's name");
-         o.entity = v;
-     }},
-    {"format", "png|jpeg|webp", "of the picture; default png",
-     [](O& o, S& v) { o.format = parseName("format", v, kFormats); }},
-    {"quality", "1..100", "of jpeg and webp; default 90",
-     [](O& o, S& v) { o.quality = parseInt("quality", v, 1, 100, "1..100"); }},
-    {"layer", "color|depth|normal|id", "what the pixels show; default color",
-     [](O& o, S& v) { o.layer = parseName("layer", v, kLayers); }},
-    {"viewer", "infinite|local", "specular highlights as OpenGL's default, or exact",
-     [](O& o, S& v) { o.viewer = parseName("viewer", v, kViewers); }},
-    {"specular", "single|separate", "highlights under the texture, or on top of it",
-     [](O& o, S& v) {
-         o.specular = parseName(
-             "specular", v,
-             std::array<std::pair<const char*, scene::Specular>, 2>{
-                 {{"single", scene::Specular::single}, {"separate", scene::Specular::separate}}});
-     }},
-    {"scale", "0.1..1", "of width and height, for fast frames; default 1",
-     [](O& o, S& v) { o.scale = parseNumber("scale", v, 0.1, 1, "0.1..1"); }},
-}};
+template <typename Member>
+OptionSpec number(const std::string& name, Member PictureOptions::*member, double min, double max,
+                  const std::string& unit, const std::string& help,
+                  const std::string& details = "") {
+    const std::string range =
+        shortNumber(min) + ".." + shortNumber(max) + (unit.empty() ? "" : " " + unit);
+    OptionSpec spec = row(name, OptionType::number, range, help, details);
+    spec.min = min;
+    spec.max = max;
+    spec.apply = [=](PictureOptions& o, const std::string& value) {
+        o.*member = parseNumber(name, value, min, max, range.c_str());
+    };
+    return spec;
+}
+
+template <typename Member>
+OptionSpec integer(const std::string& name, Member PictureOptions::*member, int min, int max,
+                   const std::string& unit, const std::string& help,
+                   const std::string& details = "") {
+    const std::string range =
+        std::to_string(min) + ".." + std::to_string(max) + (unit.empty() ? "" : " " + unit);
+    OptionSpec spec = row(name, OptionType::integer, range, help, details);
+    spec.min = min;
+    spec.max = max;
+    spec.apply = [=](PictureOptions& o, const std::string& value) {
+        o.*member = parseInt(name, value, min, max, range.c_str());
+    };
+    return spec;
+}
+
+/// An integer of which only some values are valid.
+template <typename Member>
+OptionSpec choice(const std::string& name, Member PictureOptions::*member,
+                  const std::vector<std::string>& values, const std::string& unit,
+                  const std::string& help, const std::string& details) {
+    const std::string range = joined(values, "|") + " " + unit;
+    OptionSpec spec = row(name, OptionType::integer, range, help, details);
+    spec.words = values;
+    spec.min = std::stoi(values.front());
+    spec.max = std::stoi(values.back());
+    spec.apply = [=](PictureOptions& o, const std::string& value) {
+        const int parsed = parseInt(name, value, std::stoi(values.front()),
+                                    std::stoi(values.back()), range.c_str());
+        if (std::find(values.begin(), values.end(), std::to_string(parsed)) == values.end())
+            outOfRange(name, value, range);
+        o.*member = parsed;
+    };
+    return spec;
+}
+
+template <typename Member, typename Enum>
+OptionSpec word(const std::string& name, Member PictureOptions::*member, const Words<Enum>& words,
+                const std::string& help, const std::string& details = "") {
+    std::vector<std::string> names;
+    for (const auto& [text, value] : words) names.emplace_back(text);
+    OptionSpec spec = row(name, OptionType::word, joined(names, "|"), help, details);
+    spec.words = names;
+    spec.apply = [=, range = spec.range](PictureOptions& o, const std::string& text) {
+        const auto known = std::find_if(words.begin(), words.end(),
+                                        [&](const auto& entry) { return entry.first == text; });
+        if (known == words.end()) outOfRange(name, text, range);
+        o.*member = known->second;
+    };
+    return spec;
+}
+
+template <typename Member>
+OptionSpec flag(const std::string& name, Member PictureOptions::*member, const std::string& help) {
+    OptionSpec spec = row(name, OptionType::flag, "0 or 1", help, "");
+    spec.apply = [=](PictureOptions& o, const std::string& value) {
+        o.*member = parseFlag(name, value);
+    };
+    return spec;
+}
+
+OptionSpec vector(const std::string& name, std::optional<glm::dvec3> PictureOptions::*member,
+                  const std::string& help) {
+    OptionSpec spec = row(name, OptionType::vector, "x,y,z", help, "");
+    spec.apply = [=](PictureOptions& o, const std::string& value) {
+        o.*member = parseVector(name, value);
+    };
+    return spec;
+}
+
+OptionSpec text(const std::string& name, std::optional<std::string> PictureOptions::*member,
+                const std::string& range, const std::string& expected, const std::string& help) {
+    OptionSpec spec = row(name, OptionType::text, range, help, "");
+    spec.apply = [=](PictureOptions& o, const std::string& value) {
+        if (value.empty() || value.size() > 1024) outOfRange(name, value.substr(0, 40), expected);
+        o.*member = value;
+    };
+    return spec;
+}
+
+Words<image::Format> formatWords() {
+    Words<image::Format> words;
+    for (std::size_t i = 0; i < image::kFormats.size(); ++i)
+        words.emplace_back(image::kFormats[i].name, image::Format{static_cast<std::uint8_t>(i)});
+    return words;
+}
+
+std::string lossyFormats() {
+    std::vector<std::string_view> names;
+    for (const image::FormatSpec& format : image::kFormats)
+        if (format.isLossy) names.push_back(format.name);
+    return joined(names, " and ");
+}
+
+std::vector<OptionSpec> makeSpecs() {
+    using O = PictureOptions;
+    return {
+        integer("width", &O::width, 1, kMaxSide, "px",
+                "picture width; default the scene's window, else 512"),
+        integer("height", &O::height, 1, kMaxSide, "px",
+                "picture height; default the scene's window, else 512",
+                "Width times height is at most " + std::to_string(kMaxPixels) + "."),
+        word("camera", &O::camera, wordsOf(kCameraStartWords),
+             "where the camera starts; default scene, framed where it has no camera",
+             "framed shows all models; engine is the 2017 engine's start: at the origin, looking "
+             "along +Z, 45 degrees. The options below move it."),
+        vector("eye", &O::eye, "camera position, world units"),
+        vector("target", &O::target, "point looked at, world units"),
+        vector("up", &O::up, "direction that is up in the picture"),
+        number("azimuth", &O::azimuthDeg, -36000, 36000, "degrees",
+               "orbit about the target: longitude, 0 is from +Z"),
+        number("elevation", &O::elevationDeg, -90, 90, "degrees",
+               "orbit about the target: latitude, 90 is from above"),
+        number("distance", &O::distance, 1e-6, kFar, "",
+               "orbit about the target: distance, world units"),
+        number("fov", &O::fovDeg, 0.01, 179, "degrees", "vertical field of view"),
+        number("near", &O::near, 1e-6, kFar, "", "nearest distance drawn, world units"),
+        number("far", &O::far, 1e-6, kFar, "",
+               "farthest distance drawn, world units, more than near"),
+        number("time", &O::timeS, -1e9, 1e9, "s", "moment of the animation; default 0"),
+        word("shading", &O::shading, wordsOf(scene::kShadingWords),
+             "how surfaces are drawn; default by what the scene holds"),
+        choice("aa", &O::samples, {"1", "2", "4", "8", "16"}, "samples",
+               "antialiasing, samples a pixel; 8 and 16 are shaded each; default by error, 4",
+               "2 and 4 share their shading; 8 and 16 hold outlines to 1/8 and 1/16 px."),
+        word("filter", &O::filter, wordsOf(scene::kFilterWords), "texture filter; default mipmap"),
+        number("error", &O::errorPx, 0.01, 64, "px",
+               "tessellation on demand: greatest error; default 0.25",
+               "It also chooses the default of aa: 1 sample from 1 px on, 8 from 0.08 px down, 16 "
+               "from 0.03."),
+        number("budget_ms", &O::budgetMs, 0.1, 60000, "ms",
+               "chooses aa and error, where they are not given, by the expected time of a frame",
+               "No clock is read: the same request gives the same bytes. X-Farol-Quality has what "
+               "was chosen."),
+        flag("axes", &O::axes, "draws the axes: X red, Y green, Z blue"),
+        flag("curves", &O::curves, "draws the curves that groups move along"),
+        flag("focus", &O::focus, "draws a white cube at the camera's target"),
+        flag("debug", &O::debug, "writes what was drawn into the picture"),
+        text("background", &O::background,
+             "#rrggbb, r,g,b (0..255), a colour's name, transparent, or a picture's file",
+             "a colour, transparent, or a file's name",
+             "what stands behind everything; default black"),
+        text("entity", &O::entity, "a scene file of the bundle", "a scene file's name",
+             "drawn before the third-person camera"),
+        word("format", &O::format, formatWords(), "of the picture; default png",
+             "A request without it is answered by its Accept header."),
+        integer("quality", &O::quality, 1, 100, "", "of " + lossyFormats() + "; default 90"),
+        word("layer", &O::layer, wordsOf(kLayerWords), "what the pixels show; default color"),
+        word("missing", &O::missing, wordsOf(kMissingWords),
+             "what a missing or damaged file does; default error",
+             "placeholder draws a checker for a texture and a checkered unit box for a mesh, and "
+             "leaves out parts of the document that cannot be read. The errors stay in the "
+             "findings."),
+        word("viewer", &O::viewer, wordsOf(scene::kViewerWords),
+             "specular highlights as OpenGL's default, or exact"),
+        word("specular", &O::specular, wordsOf(scene::kSpecularWords),
+             "highlights under the texture, or on top of it"),
+        number("scale", &O::scale, 0.1, 1, "", "of width and height, for fast frames; default 1"),
+    };
+}
+
+const std::vector<OptionSpec>& specs() {
+    static const std::vector<OptionSpec> kSpecs = makeSpecs();
+    return kSpecs;
+}
 
 }  // namespace
 
-std::span<const OptionSpec> optionSpecs() { return kSpecs; }
+std::span<const OptionSpec> optionSpecs() { return specs(); }
 
 void applyOption(PictureOptions& options, const std::string& name, const std::string& value) {
-    const auto spec = std::find_if(kSpecs.begin(), kSpecs.end(),
+    const std::vector<OptionSpec>& all = specs();
+    const auto spec = std::find_if(all.begin(), all.end(),
                                    [&](const OptionSpec& one) { return one.name == name; });
-    if (spec != kSpecs.end()) return spec->apply(options, value);
+    if (spec != all.end()) return spec->apply(options, value);
     std::vector<std::string> names;
-    for (const OptionSpec& one : kSpecs) names.push_back(one.name);
-    const std::string hint = scene::didYouMean(name, names);
+    for (const OptionSpec& one : all) names.push_back(one.name);
+    const std::string hint = didYouMean(name, names);
     throw Error("option.unknown",
                 "there is no picture option '" + name.substr(0, 64) + "'" +
                     (hint.empty() ? "" : "; did you mean '" + hint + "'?"),

@@ -1,19 +1,32 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <glm/glm.hpp>
 #include <optional>
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
+#include "core/enum_words.h"
+#include "image/format.h"
 #include "scene/scene.h"
 
 namespace farol::render {
 
-enum class Format { png, jpeg, webp };
 enum class Layer { color, depth, normal, id };
+inline constexpr EnumWords<Layer, Layer::id> kLayerWords{"color", "depth", "normal", "id"};
+
+/// Where the camera starts: as the scene says (framed where it has no camera), with a view that
+/// frames all models, or as the 2017 engine.
+enum class CameraStart { scene, framed, engine };
+inline constexpr EnumWords<CameraStart, CameraStart::engine> kCameraStartWords{"scene", "framed",
+                                                                               "engine"};
+
+/// What happens where a file or a part of the document cannot be read: an error and no image, or an
+/// image with placeholders and the errors beside it.
+enum class Missing { error, placeholder };
+inline constexpr EnumWords<Missing, Missing::placeholder> kMissingWords{"error", "placeholder"};
 
 inline constexpr int kMaxSide = 4096;                   ///< px
 inline constexpr std::int64_t kMaxPixels = 16'777'216;  ///< of one picture
@@ -24,6 +37,7 @@ inline constexpr double kDefaultErrorPx = 0.25;
 /// choice, else the default named in optionSpecs().
 struct PictureOptions {
     std::optional<int> width, height;  ///< 1..4096 px, at most kMaxPixels
+    CameraStart camera = CameraStart::scene;
     std::optional<glm::dvec3> eye, target, up;
     std::optional<double> azimuthDeg, elevationDeg, distance;  ///< an orbit about target
     std::optional<double> fovDeg, near, far;
@@ -39,20 +53,27 @@ struct PictureOptions {
     std::optional<std::string>
         background;  ///< "#rrggbb", "r,g,b", a name, "transparent" or an asset
     std::optional<std::string> entity;
-    Format format = Format::png;
+    image::Format format = image::Format::png;
     int quality = 90;  ///< jpeg and webp, 1..100
     Layer layer = Layer::color;
     std::optional<scene::Viewer> viewer;
     std::optional<scene::Specular> specular;
+    Missing missing = Missing::error;
     double scale = 1.0;  ///< of width and height, 0.1..1
 };
 
-/// One option as flags and query parameters know it.
+enum class OptionType { number, integer, flag, word, vector, text };
+
+/// One option, of which its flag, its query parameter and their descriptions are made.
 struct OptionSpec {
-    std::string name;   ///< "width"
-    std::string range;  ///< "1..4096 px", for help and messages
+    std::string name;  ///< "width"
+    OptionType type = OptionType::text;
+    double min = 0, max = 0;         ///< of numbers and integers, inclusive
+    std::vector<std::string> words;  ///< of type word; of integers of which only some are valid
+    std::string range;               ///< "1..4096 px", for help and messages
     std::string help;
-    void (*apply)(PictureOptions&, const std::string& value);  ///< throws Error option.*
+    std::string details;  ///< sentences for which a help line has no room; may be empty
+    std::function<void(PictureOptions&, const std::string& value)> apply;  ///< throws option.range
 };
 
 /// All options, in the order of the help.

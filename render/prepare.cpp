@@ -1,12 +1,15 @@
 #include "render/prepare.h"
 
 #include <algorithm>
-#include <cctype>
+#include <iterator>
 
+#include "core/text.h"
 #include "generator/registry.h"
+#include "render/placeholders.h"
 #include "scene/animation.h"
-#include "scene/archive.h"
-#include "scene/reader.h"
+#include "scene/files/archive.h"
+#include "scene/files/locator.h"
+#include "scene/read/reader.h"
 
 namespace farol::render {
 namespace {
@@ -34,6 +37,10 @@ class WithDocument final : public scene::Assets {
     std::optional<std::string> read(const std::string& path) const override {
         return document_.has(path) ? document_.read(path) : rest_->read(path);
     }
+    std::optional<std::uint64_t> size(const std::string& path) const override {
+        return document_.has(path) ? document_.size(path) : rest_->size(path);
+    }
+    void prefetch(const std::vector<std::string>& paths) const override { rest_->prefetch(paths); }
     std::string version(const std::string& path) const override {
         return document_.has(path) ? document_.version(path) : rest_->version(path);
     }
@@ -42,14 +49,6 @@ class WithDocument final : public scene::Assets {
     scene::BundleAssets document_;
     std::shared_ptr<const scene::Assets> rest_;
 };
-
-std::string ending(const std::string& name) {
-    const std::size_t dot = name.rfind('.');
-    std::string text = dot == std::string::npos ? "" : name.substr(dot + 1);
-    std::transform(text.begin(), text.end(), text.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return text;
-}
 
 /// A mesh on its own, in daylight that comes with the viewer.
 scene::Scene sceneOfMesh(const std::string& name) {
@@ -60,11 +59,10 @@ scene::Scene sceneOfMesh(const std::string& name) {
     light.direction = glm::dvec3(0.3, 0.4, 1.0);
     scene.lights.push_back(light);
     scene::Model model;
-    if (ending(name) == "patch")
+    if (fileEnding(name) == "patch")
         model.command = "patch " + name + " 10";
     else
         model.file = name;
-    model.material = scene::Material{};
     model.where.file = name;
     scene.groups.emplace_back().models.push_back(std::move(model));
     return scene;
@@ -82,34 +80,80 @@ bool isProfile(const scene::Model& model, const scene::Assets& assets) {
 
 /// The job that an archive holds.
 Job unpacked(const Job& packed) {
-    scene::Bundle bundle = scene::readArchive(packed.archive);
     Job job = packed;
+    const auto files = std::make_shared<const scene::ArchiveAssets>(
+        std::make_shared<std::string>(std::move(job.archive)));
     job.archive.clear();
-    job.name = bundle.main;
-    job.xml = bundle.files[bundle.main];
-    job.assets = std::make_shared<scene::BundleAssets>(std::move(bundle.files));
+    job.name = job.path = scene::mainOf(*files);
+    job.xml = files->read(job.path).value_or("");
+    job.assets = files;
     return job;
+}
+
+/// Adds the files that the scene takes.
+void addFiles(const scene::Group& group, std::vector<std::string>& paths) {
+    for (const scene::Model& model : group.models) {
+        if (!model.source.path.empty()) paths.push_back(model.source.path);
+        if (model.texture && !model.texture->path.empty()) paths.push_back(model.texture->path);
+    }
+    for (const scene::Group& child : group.groups) addFiles(child, paths);
+}
+
+void addFiles(const scene::Scene& scene, std::vector<std::string>& paths) {
+    for (const scene::Group& group : scene.groups) addFiles(group, paths);
+    if (!scene.background.path.empty()) paths.push_back(scene.background.path);
+    if (scene.skybox && !scene.skybox->path.empty()) paths.push_back(scene.skybox->path);
+    if (scene.entity) addFiles(*scene.entity, paths);
 }
 
 /// The request's entity, in place of the scene's.
 void takeEntity(Prepared& prepared, const std::string& file) {
-    const auto path = scene::locate(*prepared.assets, file, {}, prepared.diagnostics);
+    const auto path =
+        scene::locate(*prepared.assets, file, {}, prepared.diagnostics, prepared.scene.document);
     if (!path)
         throw Error("option.range", "entity=" + file + " is no file of this scene", {}, "entity");
     scene::ReadOptions options;
-    options.name = *path;
+    options.name = options.path = *path;
     scene::ReadResult result =
         scene::read(prepared.assets->read(*path).value_or(""), options, *prepared.assets);
     prepared.scene.entity = std::make_shared<scene::Scene>(std::move(result.scene));
     for (Diagnostic& one : result.diagnostics) prepared.diagnostics.push_back(std::move(one));
 }
 
+constexpr std::size_t kMaxFindings = 2'000;
+
+/// Keeps errors before the rest, in their order, and adds how many were dropped.
+void capFindings(Diagnostics& diagnostics) {
+    if (diagnostics.size() <= kMaxFindings) return;
+    const std::size_t kept = kMaxFindings - 1;
+    std::vector<bool> isKept(diagnostics.size());
+    std::size_t count = 0;
+    for (const bool errors : {true, false})
+        for (std::size_t i = 0; i < diagnostics.size() && count < kept; ++i)
+            if ((diagnostics[i].severity == Severity::error) == errors) {
+                isKept[i] = true;
+                ++count;
+            }
+    const std::size_t hidden = diagnostics.size() - kept;
+    Diagnostics shown;
+    for (std::size_t i = 0; i < diagnostics.size(); ++i)
+        if (isKept[i]) shown.push_back(std::move(diagnostics[i]));
+    Diagnostic note;
+    note.severity = Severity::info;
+    note.code = "limit.diagnostics";
+    note.message = std::to_string(hidden) + " more findings are not shown";
+    shown.push_back(std::move(note));
+    diagnostics = std::move(shown);
+}
+
 }  // namespace
 
-void refuseErrors(Diagnostics& diagnostics, bool strict) {
-    if (strict)
+void refuseErrors(Diagnostics& diagnostics, const Job& job) {
+    if (job.strict)
         for (Diagnostic& one : diagnostics)
             if (one.severity == Severity::warning) one.severity = Severity::error;
+    capFindings(diagnostics);
+    if (job.options.missing == Missing::placeholder) return;
     if (std::any_of(diagnostics.begin(), diagnostics.end(),
                     [](const Diagnostic& one) { return one.severity == Severity::error; }))
         throw Error(diagnostics);
@@ -118,14 +162,16 @@ void refuseErrors(Diagnostics& diagnostics, bool strict) {
 Prepared prepare(const Job& job) {
     if (!job.archive.empty()) return prepare(unpacked(job));
     Prepared prepared;
+    if (const auto* archive = dynamic_cast<const scene::ArchiveAssets*>(job.assets.get()))
+        prepared.diagnostics = archive->findings();
     prepared.assets = job.assets ? job.assets : std::make_shared<scene::BundleAssets>();
-    const std::string kind = ending(job.name);
+    const std::string kind = fileEnding(job.name);
     if (generator::isMeshName(job.name) || kind == "patch") {
         const std::string base = job.name.substr(job.name.find_last_of("/\\") + 1);
         prepared.scene = sceneOfMesh(base);
         prepared.assets = std::make_shared<WithDocument>(base, job.xml, prepared.assets);
         scene::Model& model = prepared.scene.groups[0].models[0];
-        model.source = {scene::ModelSource::Kind::file, base, {}};
+        model.source = {scene::ModelSource::Kind::file, base};
         if (kind == "ply" && isProfile(model, *prepared.assets)) {
             model.revolve = kProfileCopies;
             model.twoSided = true;
@@ -134,14 +180,24 @@ Prepared prepare(const Job& job) {
     } else {
         scene::ReadOptions options;
         options.name = job.name;
+        options.path = job.path;
         options.strict = job.strict;
+        options.leaveOut = job.options.missing == Missing::placeholder;
         scene::ReadResult result = scene::read(job.xml, options, *prepared.assets);
         prepared.scene = std::move(result.scene);
-        prepared.diagnostics = std::move(result.diagnostics);
+        std::move(result.diagnostics.begin(), result.diagnostics.end(),
+                  std::back_inserter(prepared.diagnostics));
     }
     if (job.options.entity) takeEntity(prepared, *job.options.entity);
     generator::resolve(prepared.scene, *prepared.assets, prepared.diagnostics);
-    refuseErrors(prepared.diagnostics, job.strict);
+    if (job.options.missing == Missing::placeholder && prepared.scene.where.line > 0)
+        fillPlaceholders(prepared.scene, *prepared.assets, prepared.diagnostics);
+    refuseErrors(prepared.diagnostics, job);
+    std::vector<std::string> files;
+    addFiles(prepared.scene, files);
+    std::sort(files.begin(), files.end());
+    files.erase(std::unique(files.begin(), files.end()), files.end());
+    prepared.assets->prefetch(files);
     prepared.animated = scene::isAnimated(prepared.scene) ||
                         (prepared.scene.entity && scene::isAnimated(*prepared.scene.entity));
     return prepared;
@@ -149,13 +205,16 @@ Prepared prepare(const Job& job) {
 
 std::shared_ptr<const Prepared> PreparedCache::get(const Job& job) {
     if (job.identity.empty()) return std::make_shared<const Prepared>(prepare(job));
-    const std::string key = job.identity + '\n' + job.name + '\n' + (job.strict ? 's' : 'l') +
-                            job.options.entity.value_or("");
+    const std::string key =
+        job.identity + '\n' + job.name + '\n' + job.path + '\n' + (job.strict ? 's' : 'l') +
+        std::string(kMissingWords[job.options.missing]) + '\n' + job.options.entity.value_or("");
     if (const auto* known = kept_.find(key)) return *known;
     auto fresh = std::make_shared<const Prepared>(prepare(job));
     std::size_t cost = 1;
     if (const auto* bundle = dynamic_cast<const scene::BundleAssets*>(fresh->assets.get()))
         cost += bundle->bytes() / kBytesOfOne;  // its files are kept with it
+    if (const auto* archive = dynamic_cast<const scene::ArchiveAssets*>(fresh->assets.get()))
+        cost += archive->maxBytes() / kBytesOfOne;
     return kept_.put(key, std::move(fresh), cost);
 }
 

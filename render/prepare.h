@@ -3,7 +3,7 @@
 #include <memory>
 #include <string>
 
-#include "render/lru.h"
+#include "core/lru_cache.h"
 #include "render/renderer.h"
 #include "scene/scene.h"
 
@@ -12,13 +12,14 @@ namespace farol::render {
 /// A job read and resolved: every file it names is known to be there.
 struct Prepared {
     scene::Scene scene;
-    Diagnostics diagnostics;  ///< info and warnings
+    Diagnostics diagnostics;  ///< info and warnings; with missing=placeholder also errors
     std::shared_ptr<const scene::Assets> assets;
     bool animated = false;  ///< something depends on the time
 };
 
 /// Reads the document (or, by the ending of the name, a mesh file on its own) and resolves what it
-/// names. Throws Error with all findings when one is an error, or in strict a warning.
+/// names. Throws Error with all findings when one is an error, or in strict a warning; with
+/// missing=placeholder only where the document itself cannot be read.
 Prepared prepare(const Job& job);
 
 /// Scenes that were read, by Job::identity and what else decides over reading, least recently used
@@ -33,7 +34,8 @@ class PreparedCache {
     LruCache<std::string, std::shared_ptr<const Prepared>> kept_;
 };
 
-/// Throws Error with all of `diagnostics` when one is an error; in strict, warnings are.
-void refuseErrors(Diagnostics& diagnostics, bool strict);
+/// Makes errors of warnings where the job is strict. Throws Error with all of `diagnostics` where
+/// one is an error and the job does not ask for placeholders.
+void refuseErrors(Diagnostics& diagnostics, const Job& job);
 
 }  // namespace farol::render

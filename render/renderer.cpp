@@ -4,18 +4,20 @@
 #include <map>
 #include <set>
 
+#include "core/build_id.h"
+#include "core/stopwatch.h"
 #include "generator/registry.h"
-#include "render/build_id.h"
-#include "render/camera.h"
-#include "render/encode.h"
+#include "image/format.h"
+#include "image/image_file.h"
 #include "render/gl/painter.h"
-#include "render/image_file.h"
-#include "render/instances.h"
-#include "render/overlay.h"
-#include "render/plan.h"
+#include "render/plan/camera.h"
+#include "render/plan/cost.h"
+#include "render/plan/instances.h"
+#include "render/plan/overlay.h"
+#include "render/plan/plan.h"
+#include "render/plan/quality.h"
+#include "render/plan/visibility.h"
 #include "render/prepare.h"
-#include "render/quality.h"
-#include "render/stopwatch.h"
 #include "scene/animation.h"
 #include "scene/loop.h"
 
@@ -37,12 +39,12 @@ struct KeptPlaces {
     Placed placed;
 };
 
-Image chessBoard(const scene::Chess& chess) {
+image::Image chessBoard(const scene::Chess& chess) {
     // Fields of 32 texels: mipmaps have something to average, and edges stay sharp when magnified.
     constexpr int kField = 32;
     constexpr int kMost = 4096;
     const int field = std::max(1, std::min(kField, kMost / std::max(chess.columns, chess.rows)));
-    Image image{chess.columns * field, chess.rows * field, {}};
+    image::Image image{chess.columns * field, chess.rows * field, {}};
     image.pixels.reserve(static_cast<std::size_t>(image.width) *
                          static_cast<std::size_t>(image.height) * 4);
     for (int y = 0; y < image.height; ++y)
@@ -58,14 +60,15 @@ Image chessBoard(const scene::Chess& chess) {
 }
 
 UndecodedTexture openTexture(const TextureRef& ref, const scene::Assets& assets) {
-    if (ref.chess) return {0, 0, [&ref] { return chessBoard(*ref.chess); }};
+    if (ref.chess) return {0, 0, [&ref](std::string&) { return chessBoard(*ref.chess); }};
     auto bytes = assets.read(ref.path);
     if (!bytes) throw Error("asset.missing", "there is no file '" + ref.path + "'", ref.where);
-    const ImageSize size = imageSize(*bytes, ref.path, ref.where);
+    const image::ImageSize size = image::imageSize(*bytes, ref.path, ref.where);
     // Shared, for a copy of the function is no copy of the file.
     const auto file = std::make_shared<const std::string>(std::move(*bytes));
-    return {size.width, size.height,
-            [&ref, file] { return decodeImage(*file, ref.path, ref.where); }};
+    return {size.width, size.height, [&ref, file](std::string& damage) {
+                return image::decodeImage(*file, ref.path, ref.where, &damage);
+            }};
 }
 
 /// The debug overlay. No times of the clock: the same request must give the same bytes.
@@ -75,10 +78,10 @@ std::string describe(const FramePlan& frame, double timeS) {
     std::snprintf(text.data(), text.size(),
                   "time %.3f s   %d x %d px, %d samples\n%d of %d models, %lld triangles\n"
                   "%d draw calls, %d lights, %d textures\neye %.4g %.4g %.4g",
-                  timeS, frame.width, frame.height, frame.samples, stats.instances - stats.culled,
-                  stats.instances, static_cast<long long>(stats.triangles), stats.drawCalls,
-                  stats.lights, stats.textures, frame.camera.eye.x, frame.camera.eye.y,
-                  frame.camera.eye.z);
+                  timeS, frame.view.size.x, frame.view.size.y, frame.style.samples,
+                  stats.instances - stats.culled, stats.instances,
+                  static_cast<long long>(stats.triangles), stats.drawCalls, stats.lights,
+                  stats.textures, frame.camera.eye.x, frame.camera.eye.y, frame.camera.eye.z);
     return text.data();
 }
 
@@ -96,22 +99,35 @@ void addElements(SceneReport& report, const InstanceList& list) {
     }
 }
 
-/// Adds what was repaired in mesh files; in strict that is an error.
-void takeFindings(Diagnostics& diagnostics, const Diagnostics& findings, bool strict) {
+/// Whether next to nothing shows of a scene that has models. A skybox or a picture behind them
+/// hides that from the pixels; then the plan alone decides.
+bool isBlank(const FramePlan& frame, const image::Image& image) {
+    const Stats& stats = frame.stats;
+    if (frame.style.layer != Layer::color || stats.instances == 0) return false;
+    if (stats.instances == stats.culled) return true;
+    return frame.style.skyboxTexture < 0 && frame.style.backgroundTexture < 0 &&
+           isNearlyBlank(image);
+}
+
+/// Adds findings about meshes and textures; in strict that is an error.
+void takeFindings(Diagnostics& diagnostics, const Diagnostics& findings, const Job& job) {
     diagnostics.insert(diagnostics.end(), findings.begin(), findings.end());
-    refuseErrors(diagnostics, strict);
+    refuseErrors(diagnostics, job);
 }
 
 }  // namespace
 
 struct Renderer::State {
-    gl::Painter painter;
+    gl::Painter painter{gl::createContext(gl::Backend::osmesa)};
     MeshLibrary meshes{kMeshBytes};
     PreparedCache scenes{kScenes};
-    Image image;  ///< of the last picture: its memory serves the next
+    CostBudget budget;
+    image::Image image;  ///< of the last picture: its memory serves the next
     LruCache<PlacedKey, KeptPlaces> places{kPlacedBytes};
 
     const Placed& placed(const std::shared_ptr<const Prepared>& prepared, const Job& job);
+    Picture draw(const Prepared& prepared, const Placed& placed, const Job& job, image::Image& out,
+                 double parseMs);
 };
 
 const Placed& Renderer::State::placed(const std::shared_ptr<const Prepared>& prepared,
@@ -127,31 +143,56 @@ const Placed& Renderer::State::placed(const std::shared_ptr<const Prepared>& pre
 
 Renderer::Renderer() : state_(std::make_unique<State>()) {}
 Renderer::~Renderer() = default;
-const std::string& Renderer::gl() const { return state_->painter.description(); }
+CostBudget& Renderer::budget() { return state_->budget; }
+const GlFacts& Renderer::gl() const { return state_->painter.facts(); }
 Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 
-Picture Renderer::draw(const Job& job, Image& image) {
-    Picture picture;
+Picture Renderer::draw(const Job& job, image::Image& image) {
     Stopwatch watch;
     const std::shared_ptr<const Prepared> kept = state_->scenes.get(job);
-    const Prepared& prepared = *kept;
-    picture.diagnostics = prepared.diagnostics;
-    picture.times.parseMs = watch.lapMs();
+    const double parseMs = watch.lapMs();
+    return state_->draw(*kept, state_->placed(kept, job), job, image, parseMs + watch.lapMs());
+}
 
-    const Placed& placed = state_->placed(kept, job);
+Picture Renderer::draw(const std::shared_ptr<const Prepared>& scene, const Job& job,
+                       image::Image& image) {
+    const Placed once =
+        place(scene->scene, job.options.timeS, job.options.curves, *scene->assets, state_->meshes);
+    return state_->draw(*scene, once, job, image, 0.0);
+}
+
+Picture Renderer::State::draw(const Prepared& prepared, const Placed& placed, const Job& job,
+                              image::Image& out, double parseMs) {
+    Picture picture;
+    Stopwatch watch;
+    picture.diagnostics = prepared.diagnostics;
+    if (auto note = noteCameraStart(prepared.scene, job.options))
+        picture.diagnostics.push_back(std::move(*note));
+    picture.times.parseMs = parseMs;
+
     PictureOptions options = job.options;
     picture.quality = resolveBudget(options, prepared.scene, placed);
-    FramePlan frame = plan(prepared.scene, placed, options, *prepared.assets, state_->meshes,
-                           job.drawUnseen ? Skipping{false, false, false, false} : Skipping{});
+    FramePlan frame =
+        plan(prepared.scene, placed, options, *prepared.assets, meshes, painter.facts(),
+             job.drawUnseen ? Skipping{false, false, false, false} : Skipping{});
+    budget.spend(frame);
     picture.camera = frame.camera;
-    takeFindings(picture.diagnostics, frame.findings, job.strict);
+    takeFindings(picture.diagnostics, frame.findings, job);
     picture.times.geometryMs = watch.lapMs();
 
     gl::Painter::Timings timings;
-    state_->painter.draw(
-        frame, [&](const TextureRef& ref) { return openTexture(ref, *prepared.assets); }, image,
-        frame.stats.drawCalls, timings);
+    Diagnostics warnings;  // about textures
+    painter.draw(
+        frame, [&](const TextureRef& ref) { return openTexture(ref, *prepared.assets); }, out,
+        frame.stats.drawCalls, timings, warnings);
+    takeFindings(picture.diagnostics, warnings, job);
+    if (isBlank(frame, out))
+        takeFindings(
+            picture.diagnostics,
+            findHidden(prepared.scene, placed.scene, frame.view, frame.style.lit, options.timeS)
+                .findings,
+            job);
     const double total = watch.lapMs();
     picture.times.drawMs = timings.drawMs;
     picture.times.readbackMs = timings.readbackMs;
@@ -159,9 +200,9 @@ Picture Renderer::draw(const Job& job, Image& image) {
     picture.times.geometryMs += total - timings.drawMs - timings.readbackMs;
 
     if (job.options.debug && job.options.layer == Layer::color)
-        drawText(image, describe(frame, job.options.timeS), std::max(1, image.height / 300));
-    picture.width = image.width;
-    picture.height = image.height;
+        drawText(out, describe(frame, job.options.timeS), std::max(1, out.height / 300));
+    picture.width = out.width;
+    picture.height = out.height;
     picture.stats = frame.stats;
     return picture;
 }
@@ -169,9 +210,9 @@ Picture Renderer::draw(const Job& job, Image& image) {
 Picture Renderer::render(const Job& job) {
     Picture picture = draw(job, state_->image);
     Stopwatch watch;
-    picture.bytes = encode(state_->image, job.options.format, job.options.quality);
+    picture.bytes = image::encode(state_->image, job.options.format, job.options.quality);
     picture.times.encodeMs = watch.lapMs();
-    picture.contentType = contentType(job.options.format);
+    picture.contentType = image::contentType(job.options.format);
     return picture;
 }
 
@@ -180,6 +221,8 @@ SceneReport inspect(const Job& job) {
     const scene::Scene& scene = prepared.scene;
     SceneReport report;
     report.diagnostics = prepared.diagnostics;
+    if (auto note = noteCameraStart(scene, job.options))
+        report.diagnostics.push_back(std::move(*note));
     report.title = scene.title;
     report.description = scene.description;
     report.animated = scene::isAnimated(scene);
@@ -193,6 +236,10 @@ SceneReport inspect(const Job& job) {
     const InstanceList list = collect(scene, job.options.timeS, false, *prepared.assets, meshes);
     report.camera =
         chooseCamera(scene, job.options, list.bounds, static_cast<double>(size.x) / size.y);
+    takeFindings(report.diagnostics, checkLighting(list, job.options.timeS), job);
+    const HiddenModels hidden = findHidden(scene, list, viewOf(report.camera, size),
+                                           !list.lights.empty(), job.options.timeS);
+    if (hidden.areAll) takeFindings(report.diagnostics, hidden.findings, job);
     report.models = static_cast<int>(list.instances.size());
     report.lights = static_cast<int>(list.lights.size());
     addElements(report, list);
@@ -208,7 +255,8 @@ SceneReport inspect(const Job& job) {
         if (!bytes)
             throw Error("asset.missing", "there is no file '" + texture->path + "'",
                         texture->where);
-        imageSize(*bytes, texture->path, texture->where);  // a damaged head is news to the author
+        image::imageSize(*bytes, texture->path,
+                         texture->where);  // a damaged head is news to the author
         report.textureBytes += static_cast<std::int64_t>(bytes->size());
     }
     report.textures = static_cast<int>(textures.size());

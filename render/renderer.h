@@ -6,13 +6,18 @@
 #include <string>
 #include <vector>
 
-#include "render/image.h"
+#include "core/error.h"
+#include "image/image.h"
+#include "render/gl_facts.h"
 #include "render/options.h"
-#include "scene/assets.h"
-#include "scene/error.h"
+#include "render/plan/report.h"
+#include "scene/files/assets.h"
 #include "scene/scene.h"
 
 namespace farol::render {
+
+class CostBudget;
+struct Prepared;
 
 /// One picture to make: a plain function of these bytes and options.
 struct Job {
@@ -24,23 +29,13 @@ struct Job {
     /// Names the document and every file beside it: a digest that changes with any of them. Where
     /// given, the scene that was read is kept under it for the next picture; may be empty.
     std::string identity = {};
-    /// A zip or tar of the document and its files (scene/archive.h), in place of name, xml and
-    /// assets; it is opened where the scene is read. Empty: there is none.
+    /// A zip or tar of the document and its files (scene/files/archive.h), in place of name, xml
+    /// and assets; it is opened where the scene is read. Empty: there is none.
     std::string archive = {};
+    /// Of the document among its assets; empty: at their top.
+    std::string path = {};
     /// Leaves nothing out that cannot be seen: tests show that the picture is the same.
     bool drawUnseen = false;
-};
-
-/// What was drawn and what was skipped.
-struct Stats {
-    int instances = 0;  ///< models, copies of scattered groups counted
-    int culled = 0;     ///< of them not drawn: outside the view, or without any surface
-    int drawCalls = 0, textures = 0, lights = 0;
-    std::int64_t triangles = 0;
-    int culledGroups = 0;     ///< groups told to be outside at once, without a look at their models
-    int betweenSamples = 0;   ///< models too small to be met by a sample of any pixel
-    int texturesSkipped = 0;  ///< pictures that only models sample which are not drawn
-    std::int64_t lightsSkipped = 0;  ///< for each model: lights that add nothing to it
 };
 
 /// Wall time of each stage, ms.
@@ -48,20 +43,11 @@ struct StageTimes {
     double parseMs = 0, geometryMs = 0, drawMs = 0, readbackMs = 0, encodeMs = 0;
 };
 
-/// What a budget chose (PictureOptions::budgetMs), and the time that it is expected to take.
-struct Quality {
-    int samples = 4;
-    double errorPx = kDefaultErrorPx;
-    double expectedMs = 0.0;
-    bool within =
-        false;  ///< false: even the cheapest that may be chosen costs more than the budget
-};
-
 struct Picture {
     std::string bytes;        ///< encoded
     std::string contentType;  ///< "image/png"
     int width = 0, height = 0;
-    Diagnostics diagnostics;  ///< info and warnings
+    Diagnostics diagnostics;  ///< info and warnings; with missing=placeholder also errors
     scene::Camera camera;     ///< the one used, for clients that orbit from it
     Stats stats;
     StageTimes times;
@@ -104,9 +90,15 @@ class Renderer {
     /// Throws Error (option.*, xml.*, scene.*, asset.*, shape.*, mesh.*, image.*, limit.*).
     Picture render(const Job& job);
     /// The same without encoding: the pixels go to `image`, Picture::bytes stays empty.
-    Picture draw(const Job& job, Image& image);
-    /// The GL at hand: "llvmpipe (LLVM ...), 4.5 (Core Profile) Mesa 22.3.6".
-    const std::string& gl() const;
+    Picture draw(const Job& job, image::Image& image);
+    /// Draws a scene that was read, or changed since, by the job's name and options; nothing of it
+    /// is kept for other frames. Throws as render does.
+    Picture draw(const std::shared_ptr<const Prepared>& scene, const Job& job, image::Image& image);
+    /// Budget of the frames that follow; without bound until one is assigned. A frame
+    /// over it is refused: render and draw throw Error limit.cost.
+    CostBudget& budget();
+    /// Facts of the GL at hand.
+    const GlFacts& gl() const;
 
   private:
     struct State;
@@ -116,7 +108,7 @@ class Renderer {
 /// Reads and resolves without GL; throws Error as Renderer::render does for what it can tell.
 SceneReport inspect(const Job& job);
 
-/// "farol 0.1.0 build 0123456789abcdef": our version and the build of all that draws (build_id.h),
+/// "farol 0.2.0 build 0123456789abcdef": our version and the build of all that draws (build_id.h),
 /// for /version and ETags.
 std::string version();
 

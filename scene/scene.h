@@ -9,7 +9,9 @@
 #include <variant>
 #include <vector>
 
-#include "scene/error.h"
+#include "core/enum_words.h"
+#include "core/error.h"
+#include "scene/shape_call.h"
 
 /// The scene model that every dialect is read into. Right-handed, +Y up; lengths in the scene's
 /// own units; colours are display values 0..1 (no sRGB decoding: the field's pictures are made
@@ -47,6 +49,8 @@ inline Material defaultMaterial(Dialect dialect) {
 }
 
 enum class LightType { point, directional, spot };
+inline constexpr EnumWords<LightType, LightType::spot> kLightTypeWords{"point", "directional",
+                                                                       "spot"};
 /// What the light's position and direction are relative to: its group (world) or the viewer.
 enum class LightSpace { world, camera };
 
@@ -86,6 +90,8 @@ struct Scale {
 using Transform = std::variant<Translate, FollowCurve, Rotate, Spin, Scale>;
 
 enum class Filter { nearest, linear, mipmap, anisotropic };
+inline constexpr EnumWords<Filter, Filter::anisotropic> kFilterWords{"nearest", "linear", "mipmap",
+                                                                     "anisotropic"};
 enum class Mapping { mesh, sphere, texgenObject, texgenEye };
 
 /// A checker made by the renderer: `columns` x `rows` fields.
@@ -102,15 +108,28 @@ struct Texture {
     Mapping mapping = Mapping::mesh;
     glm::dvec4 planeS{1, 0, 0, 0}, planeT{0, 1, 0, 0};  ///< texgen planes, GL semantics
     std::optional<Filter> filter;
+    glm::dvec2 scale{1.0}, offset{0.0};  ///< of the mesh's own coordinates, before they are used
+    bool clamp = false;                  ///< the picture's edge goes on beyond it; else it repeats
     Location where;
 };
 
-/// Where a model's triangles come from. Filled by generator::resolveModels.
+/// A material that a mesh file brings with it for those of its triangles that name it.
+struct PartMaterial {
+    std::string name;
+    Material material;
+    std::optional<Texture> texture;
+};
+
+/// Where a model's triangles come from. Filled by generator::resolve.
 struct ModelSource {
     enum class Kind { none, file, shape } kind = Kind::none;
     std::string path;  ///< file: the asset's path. shape: a profile's or patch's path, else empty
-    std::vector<std::string>
-        words;  ///< shape: its name, then its arguments: {"cone","1","2","4","3"}
+    ShapeCall shape = {};
+    bool isSheet = false;  ///< a flat shape that is seen from one side only
+    /// file: the materials of its parts, used where the scene gives the model none.
+    std::shared_ptr<const std::vector<PartMaterial>> materials = {};
+    /// file: the shape that its name or a comment says, made where the file's form is unknown.
+    std::optional<ShapeCall> fallback = {};
     bool operator==(const ModelSource&) const = default;
 };
 
@@ -155,13 +174,27 @@ struct Camera {
     Location where;
 };
 
+/// Returns the camera that the 2017 dialect's own engine starts with: at the origin, looking
+/// along +Z.
+inline Camera engineCamera() {
+    Camera camera;
+    camera.eye = glm::dvec3(0.0);
+    camera.target = glm::dvec3(0.0, 0.0, 1.0);
+    camera.fovDeg = 45.0;
+    return camera;
+}
+
 struct Window {
     int width = 512, height = 512;
 };
 
 enum class Shading { points, wireframe, solid, chess, flat, gouraud, phong };
+inline constexpr EnumWords<Shading, Shading::phong> kShadingWords{
+    "points", "wireframe", "solid", "chess", "flat", "gouraud", "phong"};
 enum class Viewer { infinite, local };
+inline constexpr EnumWords<Viewer, Viewer::local> kViewerWords{"infinite", "local"};
 enum class Specular { single, separate };
+inline constexpr EnumWords<Specular, Specular::separate> kSpecularWords{"single", "separate"};
 
 struct Background {
     std::optional<glm::vec3> color;
@@ -185,11 +218,20 @@ struct RenderSettings {
     bool operator==(const RenderSettings&) const = default;
 };
 
+/// A document by the name that messages show and by its path among its assets.
+struct DocumentPlace {
+    std::string name;
+    std::string path;  ///< empty: at their top
+    bool operator==(const DocumentPlace&) const = default;
+};
+
 struct Scene {
+    DocumentPlace document;
     Dialect dialect = Dialect::course;
+    Location where;  ///< of the root element; line 0: no document, but a mesh file
     std::string title, description;
     std::optional<Window> window;
-    std::optional<Camera> camera;
+    std::optional<Camera> camera;  ///< empty: a view that frames all models
     std::vector<Light> lights;
     /// Light on everything, by material ambient: 1 in the course dialect, OpenGL's 0.2 in the
     /// 2017 and 2020 ones.

@@ -51,3 +51,15 @@ show_build() {
         fi
     done
 }
+
+# list_skipped PRESET: every test that was skipped, as a whole or in part, with its reason.
+list_skipped() {
+    local log=build/$1/Testing/Temporary/LastTest.log
+    [ ! -f "$log" ] || awk '
+        /^[0-9]+\/[0-9]+ Testing: / { sub(/^[0-9]+\/[0-9]+ Testing: /, ""); name = $0 }
+        /^SKIPPED: / { sub(/^SKIPPED: /, ""); lines[++count] = name ": " $0 }
+        END {
+            if (count) print "Skipped, and why:"
+            for (i = 1; i <= count; ++i) print "  " lines[i]
+        }' "$log"
+}

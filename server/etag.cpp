@@ -1,6 +1,6 @@
 #include "server/etag.h"
 
-#include "scene/digest.h"
+#include "core/digest.h"
 
 namespace farol::server {
 
@@ -8,7 +8,7 @@ std::string entityTag(const std::vector<std::string_view>& parts) {
     std::string all;
     for (const std::string_view part : parts)
         all.append(std::to_string(part.size())).append(":").append(part);
-    return "\"" + scene::contentDigest(all) + "\"";
+    return "\"" + contentDigest(all) + "\"";
 }
 
 bool matchesTag(const std::optional<std::string>& header, const std::string& tag) {

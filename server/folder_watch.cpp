@@ -41,7 +41,7 @@ void FolderWatch::giveUp(const std::string& why) {
     fault_ = why;
 }
 
-// A folder is watched before it is looked into: what is made in it meanwhile is found, or noted.
+// A folder is watched before it is looked into: files created meanwhile are listed or noted.
 void FolderWatch::watchAll() {
     std::vector<fs::path> folders{root_};
     for (std::size_t i = 0; i < folders.size(); ++i) {
@@ -92,7 +92,7 @@ std::optional<std::uint64_t> FolderWatch::revision() {
     if (hasNotes() || now - renewed_.load() >= kLongest) {
         const std::lock_guard lock(mutex_);
         // Before the notes are gone: who sees none left must see another number. And after new
-        // folders are watched: what was seen in them before was not.
+        // folders are watched: changes in them before that were missed.
         ++revision_;
         if (takeNotes()) {
             watchAll();

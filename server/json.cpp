@@ -1,10 +1,12 @@
 #include "server/json.h"
 
+#include <algorithm>
 #include <cmath>
 #include <ctime>
 
+#include "core/limit_findings.h"
 #include "server/http/uri.h"
-#include "server/problem.h"
+#include "server/request/problem.h"
 
 namespace farol::server {
 
@@ -25,6 +27,25 @@ std::string timestamp(store::Time time) {
     return text;
 }
 }  // namespace
+
+std::string asciiJson(const json& value) {
+    return value.dump(-1, ' ', true, json::error_handler_t::replace);
+}
+
+std::string diagnosticsHeader(const Diagnostics& diagnostics) {
+    // Header values are short; findings beyond that are for /v1/validate.
+    constexpr std::size_t kMaxBytes = 3000;
+    json kept = json::array();
+    Diagnostics shown = diagnostics;
+    limitFindings(shown);
+    for (const json& entry : toJson(shown)) {
+        kept.push_back(entry);
+        if (asciiJson(kept).size() <= kMaxBytes) continue;
+        kept.erase(kept.size() - 1);
+        break;
+    }
+    return asciiJson(kept);
+}
 
 json toJson(const scene::Camera& camera) {
     return {{"eye", toJson(camera.eye)}, {"target", toJson(camera.target)},
@@ -64,9 +85,9 @@ json toJson(const render::SceneReport& report) {
                   {"lights", report.lights},
                   {"textures", report.textures},
                   {"triangles", report.triangles},
-                  {"textureBytes", report.textureBytes}}},
-                {"diagnostics", toJson(report.diagnostics)}};
-    // What a client that plays the animation shows, again and again.
+                  {"textureBytes", report.textureBytes}}}};
+    setDiagnostics(out, "diagnostics", report.diagnostics);
+    // The time range that a client plays in a loop.
     if (report.playS) {
         out["playFrom"] = report.playS->x;
         out["loopSeconds"] = report.playS->y - report.playS->x;
@@ -88,8 +109,8 @@ json modelsOf(const render::SceneReport& report) {
     return {{"models", models}, {"copies", report.copies}};
 }
 
-json linksOf(const ServedScene& scene) {
-    const std::string self = "/v1/scenes/" + http::percentEncodePath(scene.id);
+json linksOf(const ServedScene& scene, const std::string& basePath) {
+    const std::string self = basePath + "/v1/scenes/" + http::percentEncodePath(scene.id);
     return {{"self", self},
             {"source", self + "/source"},
             {"image", self + "/image"},
@@ -98,13 +119,27 @@ json linksOf(const ServedScene& scene) {
             {"models", self + "/models"}};
 }
 
+namespace {
+/// The first error, or where there is none the first diagnostic. Precondition: there is one.
+const Diagnostic& primaryOf(const Diagnostics& all) {
+    const auto found = std::find_if(all.begin(), all.end(), [](const Diagnostic& one) {
+        return one.severity == Severity::error;
+    });
+    return found == all.end() ? all.front() : *found;
+}
+}  // namespace
+
 json describe(const ServedScene& scene, const render::SceneReport& report,
-              const Diagnostics& errors) {
+              const Diagnostics& errors, const std::string& basePath) {
     json out = errors.empty() ? toJson(report) : json::object();
     out["id"] = scene.id;
     out["valid"] = errors.empty();
-    out["links"] = linksOf(scene);
-    if (!errors.empty()) out["diagnostics"] = toJson(errors);
+    out["links"] = linksOf(scene, basePath);
+    if (!errors.empty()) {
+        const Diagnostic& primary = primaryOf(errors);
+        setDiagnostics(out, "diagnostics", errors);
+        out["problem"] = {{"code", primary.code}, {"message", primary.message}};
+    }
     if (out.value("title", "").empty()) {
         const std::string name = scene.id.substr(scene.id.rfind('/') + 1);
         out["title"] = name;

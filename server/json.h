@@ -16,11 +16,16 @@ nlohmann::json toJson(const render::SceneReport& report);
 /// {"models": the elements with their places, "copies": the model of each number of a layer=id
 /// picture, the first for number 1}
 nlohmann::json modelsOf(const render::SceneReport& report);
-/// Paths of a served scene's resources.
-nlohmann::json linksOf(const ServedScene& scene);
+/// Paths of a served scene's resources, behind the service's base path.
+nlohmann::json linksOf(const ServedScene& scene, const std::string& basePath);
 
-/// All that is told of a scene in the gallery or by its address.
+/// ASCII, for headers; invalid bytes become U+FFFD.
+std::string asciiJson(const nlohmann::json& value);
+/// The value of X-Farol-Diagnostics: as many as a header may hold.
+std::string diagnosticsHeader(const Diagnostics& diagnostics);
+
+/// The document of a scene, in the gallery and at its address.
 nlohmann::json describe(const ServedScene& scene, const render::SceneReport& report,
-                        const Diagnostics& errors);
+                        const Diagnostics& errors, const std::string& basePath);
 
 }  // namespace farol::server

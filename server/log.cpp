@@ -1,22 +1,17 @@
 #include "server/log.h"
 
-#include <unistd.h>
-
-#include <cerrno>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <ctime>
 #include <nlohmann/json.hpp>
-#include <string_view>
 #include <utility>
+#include <variant>
 
-#include "server/problem.h"
+#include "core/bounded_json.h"
 
 namespace farol::server {
 namespace {
-
-constexpr std::size_t kMostWaiting = std::size_t{1} << 20U;  // bytes of lines
 
 std::string timestamp() {
     const auto now = std::chrono::system_clock::now();
@@ -35,6 +30,8 @@ std::string timestamp() {
 
 }  // namespace
 
+double toMicroseconds(double milliseconds) { return std::round(milliseconds * 1000.0) / 1000.0; }
+
 Logger::Logger(Sink sink) : sink_(std::move(sink)) {}
 
 void Logger::request(const http::Request& request, const http::Response& response,
@@ -45,56 +42,27 @@ void Logger::request(const http::Request& request, const http::Response& respons
                                    {"method", request.method},
                                    {"path", request.path},
                                    {"status", response.status},
-                                   {"ms", std::round(milliseconds * 1000.0) / 1000.0}};
-    const auto numberOrText = [](const std::string& value) {
-        const auto parsed = nlohmann::ordered_json::parse(value, nullptr, false);
-        return parsed.is_number() ? parsed : nlohmann::ordered_json(value);
-    };
-    for (const auto& [name, value] : response.headers)
-        if (name == "Content-Length") line["bytes"] = numberOrText(value);
-    for (const auto& [name, value] : response.logged) line[name] = numberOrText(value);
+                                   {"ms", toMicroseconds(milliseconds)}};
+    for (const auto& [name, value] : response.logged)
+        std::visit([&line, &name = name](const auto& plain) { line[name] = plain; }, value);
     if (!sent) line["sent"] = false;
-    write(line.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+    write(dumpJson(line));
+}
+
+std::string Logger::eventLine(const std::string& name, const std::string& message) {
+    const nlohmann::ordered_json line = {
+        {"time", timestamp()}, {"event", name}, {"message", message}};
+    return dumpJson(line);
 }
 
 void Logger::event(const std::string& name, const std::string& message) {
-    const nlohmann::ordered_json line = {
-        {"time", timestamp()}, {"event", name}, {"message", message}};
-    write(line.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+    write(eventLine(name, message));
 }
 
-void Logger::put(const std::vector<std::string>& lines) const {
-    std::string all;
-    for (const std::string& line : lines) {
-        if (sink_)
-            sink_(line);
-        else
-            all.append(line).append("\n");
-    }
-    // Nobody could be told that the log cannot be written.
-    for (std::string_view rest = all; !rest.empty();) {
-        const ssize_t done = ::write(STDERR_FILENO, rest.data(), rest.size());
-        if (done < 0 && errno == EINTR) continue;
-        if (done < 0) return;
-        rest.remove_prefix(static_cast<std::size_t>(done));
-    }
-}
-
-void Logger::write(std::string line) {
-    std::unique_lock lock(mutex_);
-    room_.wait(lock, [this] { return waitingBytes_ < kMostWaiting || !isWriting_; });
-    waitingBytes_ += line.size();
-    waiting_.push_back(std::move(line));
-    if (std::exchange(isWriting_, true)) return;
-    while (!waiting_.empty()) {
-        const std::vector<std::string> lines = std::exchange(waiting_, {});
-        const bool wasFull = std::exchange(waitingBytes_, 0) >= kMostWaiting;
-        lock.unlock();
-        if (wasFull) room_.notify_all();
-        put(lines);
-        lock.lock();
-    }
-    isWriting_ = false;
+void Logger::write(const std::string& line) {
+    if (!sink_) return;
+    const std::lock_guard lock(mutex_);
+    sink_(line);
 }
 
 }  // namespace farol::server

@@ -45,9 +45,14 @@ void Metrics::Histogram::add(double seconds) {
         }
 }
 
-void Metrics::request(const std::string& route, int status, double milliseconds) {
+void Metrics::request(std::string_view route, int status, double milliseconds) {
     const std::lock_guard lock(mutex_);
-    ++requests_[{route, status}];
+    auto found = routes_.find(route);
+    if (found == routes_.end()) found = routes_.emplace(route, RouteCounts{}).first;
+    RouteCounts& counts = found->second;
+    ++counts.byStatus[status];
+    ++counts.count;
+    counts.sumS += milliseconds / 1000.0;
     duration_.add(milliseconds / 1000.0);
 }
 
@@ -72,17 +77,24 @@ void Metrics::write(std::string& out, const std::string& name, const std::string
     line(out, name + "_count" + labels, count);
 }
 
-std::string Metrics::text(const BackendState& backend, PictureCache::Counts pictures, bool storeUp,
-                          const http::Traffic& traffic, const std::string& version,
-                          const std::string& renderer) const {
+std::string Metrics::text(const worker::BackendState& backend, PictureCache::Counts pictures,
+                          bool storeUp, const http::Traffic& traffic, std::uint64_t droppedLogLines,
+                          const std::string& version, const std::string& renderer) const {
     std::string out;
     const std::lock_guard lock(mutex_);
     head(out, "farol_http_requests_total", "counter", "Requests answered.");
-    for (const auto& [key, count] : requests_)
-        line(out,
-             "farol_http_requests_total{route=" + quoted(key.first) + ",code=\"" +
-                 std::to_string(key.second) + "\"}",
-             static_cast<double>(count));
+    for (const auto& [route, counts] : routes_)
+        for (const auto& [status, count] : counts.byStatus)
+            line(out,
+                 "farol_http_requests_total{route=" + quoted(route) + ",code=\"" +
+                     std::to_string(status) + "\"}",
+                 static_cast<double>(count));
+    head(out, "farol_route_duration_seconds", "summary", "Time to answer the requests of a route.");
+    for (const auto& [route, counts] : routes_) {
+        const std::string label = "{route=" + quoted(route) + "}";
+        line(out, "farol_route_duration_seconds_sum" + label, counts.sumS);
+        line(out, "farol_route_duration_seconds_count" + label, static_cast<double>(counts.count));
+    }
     head(out, "farol_request_duration_seconds", "histogram", "Time to answer a request.");
     write(out, "farol_request_duration_seconds", "", duration_);
     head(out, "farol_stage_duration_seconds", "histogram", "Time of the stages of a picture.");
@@ -95,7 +107,8 @@ std::string Metrics::text(const BackendState& backend, PictureCache::Counts pict
     head(out, "farol_workers_busy", "gauge", "Workers with a job.");
     line(out, "farol_workers_busy", backend.busy);
     head(out, "farol_worker_restarts_total", "counter", "Workers replaced, by reason.");
-    for (const char* reason : {"crash", "deadline", "idle", "killed", "memory", "recycled"}) {
+    for (const char* reason : {"busy", "cpu", "crash", "deadline", "folder", "idle", "isolated",
+                               "killed", "memory", "recycled", "reply", "stalled"}) {
         const auto found = backend.restarts.find(reason);
         line(out, "farol_worker_restarts_total{reason=" + quoted(reason) + "}",
              found == backend.restarts.end() ? 0.0 : static_cast<double>(found->second));
@@ -109,6 +122,19 @@ std::string Metrics::text(const BackendState& backend, PictureCache::Counts pict
     head(out, "farol_superseded_requests_total", "counter",
          "Frames that a newer one of their session overtook.");
     line(out, "farol_superseded_requests_total", static_cast<double>(backend.superseded));
+    head(out, "farol_jobs_total", "counter", "Jobs of workers, by kind and how they ended.");
+    for (const auto& [task, counts] : backend.jobs) {
+        const std::string name = "farol_jobs_total{task=" + quoted(task) + ",outcome=";
+        line(out, name + "\"done\"}", static_cast<double>(counts.done));
+        line(out, name + "\"refused\"}", static_cast<double>(counts.refused));
+        line(out, name + "\"failed\"}", static_cast<double>(counts.failed));
+    }
+    head(out, "farol_job_duration_seconds", "summary", "Time in a worker of jobs that were done.");
+    for (const auto& [task, counts] : backend.jobs) {
+        const std::string label = "{task=" + quoted(task) + "}";
+        line(out, "farol_job_duration_seconds_sum" + label, counts.seconds);
+        line(out, "farol_job_duration_seconds_count" + label, static_cast<double>(counts.done));
+    }
     head(out, "farol_cache_requests_total", "counter", "Pictures looked for among those sent.");
     line(out, "farol_cache_requests_total{cache=\"picture\",result=\"hit\"}",
          static_cast<double>(pictures.hits));
@@ -124,16 +150,22 @@ std::string Metrics::text(const BackendState& backend, PictureCache::Counts pict
     labelled(now, R"(state="active")", traffic.active);
     labelled(now, R"(state="sending")", traffic.sending);
     head(out, "farol_http_connections_closed_total", "counter",
-         "Connections ended by the service, by what the client did or what was full.");
+         "Connections ended by the service, by what the client did or what was "
+         "full.");
     const std::string closed = "farol_http_connections_closed_total";
     labelled(closed, R"(reason="slow_head")", traffic.slowHead);
     labelled(closed, R"(reason="slow_body")", traffic.slowBody);
     labelled(closed, R"(reason="slow_reader")", traffic.slowReader);
     labelled(closed, R"(reason="buffers_full")", traffic.memory);
     labelled(closed, R"(reason="connections_full")", traffic.full);
+    labelled(closed, R"(reason="client_full")", traffic.clientFull);
+    labelled(closed, R"(reason="displaced")", traffic.displaced);
     head(out, "farol_http_buffered_bytes", "gauge",
          "Of requests that arrive and answers that wait for their clients.");
     line(out, "farol_http_buffered_bytes", static_cast<double>(traffic.bufferedBytes));
+    head(out, "farol_log_lines_dropped_total", "counter",
+         "Lines of the log that could not be written.");
+    line(out, "farol_log_lines_dropped_total", static_cast<double>(droppedLogLines));
     head(out, "farol_store_up", "gauge", "Whether the store of uploads could be asked last time.");
     line(out, "farol_store_up", storeUp ? 1 : 0);
     head(out, "farol_build_info", "gauge", "What is running.");

@@ -2,27 +2,29 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <mutex>
 #include <string>
+#include <string_view>
 #include <utility>
 
-#include "server/backend.h"
 #include "server/http/traffic.h"
 #include "server/picture_cache.h"
+#include "worker/backend.h"
 
 namespace farol::server {
 
-/// What /metrics tells, in the text format of Prometheus, version 0.0.4. Threads may share it.
+/// The content of /metrics in the text format of Prometheus, version 0.0.4. Thread-safe.
 class Metrics {
   public:
     /// `route` is a pattern ("/v1/scenes/{id}"), never a path: there are few of them.
-    void request(const std::string& route, int status, double milliseconds);
+    void request(std::string_view route, int status, double milliseconds);
     /// `stage` as in Server-Timing.
     void stage(const std::string& stage, double milliseconds);
-    std::string text(const BackendState& backend, PictureCache::Counts pictures, bool storeUp,
-                     const http::Traffic& traffic, const std::string& version,
-                     const std::string& renderer) const;
+    std::string text(const worker::BackendState& backend, PictureCache::Counts pictures,
+                     bool storeUp, const http::Traffic& traffic, std::uint64_t droppedLogLines,
+                     const std::string& version, const std::string& renderer) const;
 
   private:
     static constexpr std::array<double, 13> kBoundsS{0.001, 0.0025, 0.005, 0.01, 0.025, 0.05, 0.1,
@@ -37,7 +39,13 @@ class Metrics {
                       const Histogram& histogram);
 
     mutable std::mutex mutex_;
-    std::map<std::pair<std::string, int>, std::uint64_t> requests_;
+    /// Counters of one route.
+    struct RouteCounts {
+        std::map<int, std::uint64_t> byStatus;
+        std::uint64_t count = 0;
+        double sumS = 0;
+    };
+    std::map<std::string, RouteCounts, std::less<>> routes_;  ///< by pattern
     Histogram duration_;
     std::map<std::string, Histogram> stages_;
 };

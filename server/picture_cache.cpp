@@ -6,7 +6,7 @@ namespace {
 // One picture must not sweep out all others.
 constexpr std::size_t kLeastPictures = 4;
 
-/// What it takes of memory, with what the allocator and the map add: small pictures are no larger
+/// Returns its memory use, with the overhead of allocator and map: small images are no larger
 /// than that.
 std::size_t costOf(const std::string& tag, const http::Response& response) {
     constexpr std::size_t kBlock = 32, kBlocks = 8;

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "render/lru.h"
+#include "core/lru_cache.h"
 #include "server/http/message.h"
 
 namespace farol::server {
@@ -32,7 +32,7 @@ class PictureCache {
     using Kept = std::shared_ptr<const http::Response>;
     const std::size_t most_;
     std::mutex mutex_;
-    render::LruCache<std::string, Kept> kept_;
+    LruCache<std::string, Kept> kept_;
     std::atomic<long> hits_{0}, misses_{0};
 };
 

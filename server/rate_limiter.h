@@ -4,7 +4,7 @@
 #include <mutex>
 #include <string>
 
-#include "render/lru.h"
+#include "core/lru_cache.h"
 #include "server/http/message.h"
 
 namespace farol::server {
@@ -15,7 +15,7 @@ struct RateLimit {
     bool trustProxy = false;  ///< the client is the last address of X-Forwarded-For
 };
 
-/// Who a request counts for: the peer's address, or the one that our own proxy saw; an IPv6
+/// Returns the client that a request counts for: the peer's address, or the proxy's peer; an IPv6
 /// address counts by its first 64 bits, since one client has all of the rest.
 std::string clientOf(const http::Request& request, bool trustProxy);
 
@@ -26,7 +26,7 @@ class RateLimiter {
     explicit RateLimiter(RateLimit limit);
 
     /// Takes one request of the client's share. Throws Busy limit.rate with the seconds after
-    /// which the next one is taken.
+    /// which the next one is accepted.
     void admit(const std::string& client, Clock::time_point now = Clock::now());
     bool isOn() const { return limit_.perSecond > 0; }
 
@@ -37,7 +37,7 @@ class RateLimiter {
     };
     RateLimit limit_;
     std::mutex mutex_;
-    render::LruCache<std::string, Bucket> buckets_;
+    LruCache<std::string, Bucket> buckets_;
 };
 
 }  // namespace farol::server

@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <optional>
 
-#include "scene/error.h"
+#include "core/error.h"
 #include "server/http/uri.h"
+#include "server/messages.h"
 
 namespace farol::server {
 namespace {
@@ -33,7 +34,8 @@ Router::Router(std::vector<Route> routes) : routes_(std::move(routes)) {
     });
 }
 
-http::Response Router::route(const http::Request& request, http::Body& body) const {
+http::Response Router::route(Context& context, const http::Request& request,
+                             http::Body& body) const {
     const std::string* known = nullptr;  // the first pattern that fits decides what a path is
     for (const Route& route : routes_) {
         if (known != nullptr && route.pattern != *known) break;
@@ -41,12 +43,13 @@ http::Response Router::route(const http::Request& request, http::Body& body) con
         if (!parameter) continue;
         known = &route.pattern;
         if (route.method == request.method)
-            return route.handle(Call{request, body, std::move(*parameter)});
+            return route.handle(context, Call{request, body, std::move(*parameter)});
     }
     if (known == nullptr)
-        throw Error("http.not-found", "There is nothing at " + request.path + ".");
+        throw Error(message<"http.not-found/path">("path"_arg = uncut(request.path)));
     if (request.method != "OPTIONS")
-        throw Error("http.method", request.method + " is not possible here.");
+        throw Error(message<"http.method">("method"_arg = request.method,
+                                           "allowed"_arg = allowed(request.path)));
     http::Response response;
     response.status = 204;
     response.set("Allow", allowed(request.path));
@@ -54,7 +57,7 @@ http::Response Router::route(const http::Request& request, http::Body& body) con
 }
 
 const Route* Router::find(const http::Request& request) const {
-    const std::string pattern = patternOf(request.path);
+    const std::string_view pattern = patternOf(request.path);
     for (const Route& route : routes_)
         if (route.pattern == pattern && route.method == request.method) return &route;
     return nullptr;
@@ -73,10 +76,20 @@ std::string Router::allowed(const std::string& path) const {
     return out.empty() ? out : out + ", OPTIONS";
 }
 
-std::string Router::patternOf(const std::string& path) const {
+const Route* Router::firstOf(const std::string& path) const {
     for (const Route& route : routes_)
-        if (match(route.pattern, path)) return route.pattern;
-    return "";
+        if (match(route.pattern, path)) return &route;
+    return nullptr;
+}
+
+std::string_view Router::patternOf(const std::string& path) const {
+    const Route* const route = firstOf(path);
+    return route == nullptr ? std::string_view() : route->pattern;
+}
+
+bool Router::drawsProblem(const std::string& path) const {
+    const Route* const route = firstOf(path);
+    return route != nullptr && route->traits.drawsProblem;
 }
 
 }  // namespace farol::server

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "render/renderer.h"
-#include "scene/assets.h"
+#include "scene/files/assets.h"
 #include "server/folder_watch.h"
 #include "server/store/scene_store.h"
 
@@ -25,6 +25,7 @@ struct ServedScene {
     std::string version;                      ///< digest of the document and the files beside it
     std::optional<store::Entry> stored = {};  ///< of an upload: it is not in the folder
     std::string document = {};                ///< digest of the document alone; "" of an upload
+    std::string fault = {};  ///< the type of an entry that is no document: "is a pipe"
 
     std::string fileName() const { return path.substr(path.rfind('/') + 1); }
 };
@@ -33,33 +34,56 @@ struct ServedScene {
 inline ServedScene uploadOf(const store::Entry& entry) { return {entry.id, "", entry.id, entry}; }
 
 /// The folder that is served. Edits show at once: it is looked at anew on every call, but for
-/// find() of what was found before while the watch knows of no change. Nothing outside it is ever
-/// found, whatever the id or the links inside say.
+/// find() of what was found before while the watch knows of no change. Another folder under the
+/// same path is noticed at the next call. Nothing outside it is ever found, whatever the id or the
+/// links inside say. Calls throw Busy busy.scenes while the folder cannot be read, and
+/// std::system_error where descriptors or memory run out.
 class SceneFolder {
   public:
     /// An empty `root` serves no scenes.
     explicit SceneFolder(std::string root);
 
-    /// All scenes in the order of their ids; at most Assets::kMaxListed files are looked at. Left
-    /// out: the other documents of a folder that has a scene.xml (they are its parts), and all of a
-    /// folder that holds a file unlisted.txt. find() knows them all the same.
+    /// All scenes in the order of their ids; at most Assets::kMaxListed files are looked at. A
+    /// document that is no file is among them, with its fault. Left out: the other documents of a
+    /// folder that has a scene.xml (they are its parts), and all of a folder that holds a file
+    /// unlisted.txt. find() knows them all the same.
     std::vector<ServedScene> list() const;
     std::optional<ServedScene> find(const std::string& id) const;
+    /// Throws Busy busy.scenes where the folder cannot be read now.
+    void check() const;
     /// Why every request looks at the files; empty if they are watched.
-    std::string watchFault() const { return watch_.fault(); }
-    /// The document's bytes; nothing if it went away meanwhile.
+    std::string watchFault() const;
+    /// The document's bytes; nothing if it went away meanwhile. Throws Error asset.unreadable where
+    /// it cannot be read, limit.bytes where it is larger than any document may be.
     std::optional<std::string> source(const ServedScene& scene) const;
     /// The files beside the document.
     std::shared_ptr<const scene::Assets> assets(const ServedScene& scene) const;
 
   private:
-    bool isPart(const std::string& path) const;
-    std::optional<ServedScene> look(const std::string& id) const;
-    std::string versionOf(const scene::Assets& files) const;
-    std::string digestOf(const scene::Assets& files, const std::string& path) const;
-    std::string root_;
-    scene::FolderAssets files_;
+    struct Found {
+        std::uint64_t revision;  ///< of the folder, from before it was looked at
+        ServedScene scene;
+    };
+    /// The folder as it is now: another one under the same path gets its own.
+    struct Mounted {
+        Mounted(const std::string& root, const scene::FolderIdentity& folder)
+            : identity(folder), files(root), watch(files.root()) {}
+        const scene::FolderIdentity identity;
+        const scene::FolderAssets files;
+        FolderWatch watch;
+        std::mutex mutex;
+        std::unordered_map<std::string, Found> found;  ///< by id; bounded
+    };
+
+    std::shared_ptr<Mounted> mounted() const;
+    bool isPart(const scene::FolderAssets& files, const std::string& path) const;
+    std::optional<ServedScene> look(const scene::FolderAssets& files, const std::string& id) const;
+    std::string versionOf(const scene::FolderAssets& files) const;
+    std::string digestOf(const scene::FolderAssets& files, const std::string& path) const;
+
+    const std::string root_;
     mutable std::mutex mutex_;
+    mutable std::shared_ptr<Mounted> mounted_;
     struct Digest {
         std::string digest;
         std::chrono::steady_clock::time_point firstSeen;
@@ -67,12 +91,6 @@ class SceneFolder {
     };
     /// Of contents, by what tells that a file may have changed. Bounded.
     mutable std::map<std::string, Digest> digests_;
-    mutable FolderWatch watch_;
-    struct Found {
-        std::uint64_t revision;  ///< of the folder, from before it was looked at
-        ServedScene scene;
-    };
-    mutable std::unordered_map<std::string, Found> found_;  ///< by id; bounded
 };
 
 }  // namespace farol::server

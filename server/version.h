@@ -4,7 +4,7 @@
 
 namespace farol::server {
 
-/// The project's version: "0.1.0".
+/// The project's version: "0.2.0".
 std::string projectVersion();
 
 }  // namespace farol::server

@@ -3,14 +3,15 @@
 
 #include "generator/io/formats.h"
 
-/// Our binary form, little-endian: "FAROL3D\n", version (u32: 1), flags (u32: 1 normals, 2 UVs),
-/// vertices (u32), indices (u32), then floats x y z each, normals, UVs, then u32 indices, then the
-/// 64-bit FNV-1a hash of all bytes before it.
+/// Our binary form, little-endian: "FAROL3D\n", version (u32: 1), flags (u32: 1 normals, 2 UVs, 4
+/// places in double, 8 colours), vertices (u32), indices (u32), then x y z each (float, or double),
+/// normals, UVs, colours (four bytes each), then u32 indices, then the 64-bit FNV-1a hash of all
+/// bytes before it.
 namespace farol::generator::io {
 namespace {
 
 constexpr std::string_view kMagic = "FAROL3D\n";
-constexpr std::uint32_t kVersion = 1, kNormals = 1, kUvs = 2;
+constexpr std::uint32_t kVersion = 1, kNormals = 1, kUvs = 2, kDoubles = 4, kColors = 8;
 constexpr std::size_t kHeader = 24, kChecksum = 8;
 
 std::uint64_t checksum(std::string_view bytes) {
@@ -40,15 +41,21 @@ void putAll(std::string& out, const std::vector<Vector>& list) {
         for (int k = 0; k < N; ++k) put(out, std::bit_cast<std::uint32_t>(value[k]));
 }
 
+double getNumber(std::string_view& bytes, bool isDouble) {
+    if (isDouble) return std::bit_cast<double>(get<std::uint64_t>(bytes));
+    return std::bit_cast<float>(get<std::uint32_t>(bytes));
+}
+
 template <int N, class Vector>
 void getAll(std::string_view& bytes, std::size_t count, std::vector<Vector>& list,
-            const std::string& file, bool finite) {
+            const std::string& file, bool finite, bool isDouble = false) {
     list.resize(count);
     for (Vector& value : list) {
         for (int k = 0; k < N; ++k) {
-            value[k] = std::bit_cast<float>(get<std::uint32_t>(bytes));
-            if (finite && !(std::abs(value[k]) <= kMaxCoordinate))
+            const double number = getNumber(bytes, isDouble);
+            if (finite && !(std::abs(number) <= kMaxCoordinate))
                 throw Error("mesh.number", "a number is not finite or beyond 1e18", {file, 0, 0});
+            value[k] = static_cast<typename Vector::value_type>(number);
         }
     }
 }
@@ -58,20 +65,29 @@ void getAll(std::string_view& bytes, std::size_t count, std::vector<Vector>& lis
 std::string encodeBinary(const Mesh& mesh) {
     std::string out(kMagic);
     put(out, kVersion);
-    put(out, (mesh.normals.empty() ? 0 : kNormals) | (mesh.uvs.empty() ? 0 : kUvs));
-    put(out, static_cast<std::uint32_t>(mesh.positions.size()));
-    put(out, static_cast<std::uint32_t>(mesh.indices.size()));
-    putAll<3>(out, mesh.positions);
-    putAll<3>(out, mesh.normals);
-    putAll<2>(out, mesh.uvs);
-    for (const std::uint32_t index : mesh.indices) put(out, index);
+    const bool isFar = mesh.origin() != glm::dvec3(0.0);
+    put(out, (mesh.normals().empty() ? 0 : kNormals) | (mesh.uvs().empty() ? 0 : kUvs) |
+                 (isFar ? kDoubles : 0) | (mesh.colors().empty() ? 0 : kColors));
+    put(out, static_cast<std::uint32_t>(mesh.positions().size()));
+    put(out, static_cast<std::uint32_t>(mesh.indices().size()));
+    if (isFar) {
+        for (std::size_t i = 0; i < mesh.positions().size(); ++i)
+            for (int k = 0; k < 3; ++k) put(out, std::bit_cast<std::uint64_t>(mesh.place(i)[k]));
+    } else {
+        putAll<3>(out, mesh.positions());
+    }
+    putAll<3>(out, mesh.normals());
+    putAll<2>(out, mesh.uvs());
+    for (const glm::u8vec4& color : mesh.colors())
+        for (int k = 0; k < 4; ++k) put(out, color[k]);
+    for (const std::uint32_t index : mesh.indices()) put(out, index);
     put(out, checksum(out));
     return out;
 }
 
 bool looksLikeBinary(std::string_view bytes) { return bytes.substr(0, kMagic.size()) == kMagic; }
 
-Mesh decodeBinary(std::string_view bytes, const std::string& fileName) {
+RawMesh decodeBinary(std::string_view bytes, const std::string& fileName) {
     const auto fail = [&fileName](const char* code, const std::string& message) {
         throw Error(code, message, {fileName, 0, 0});
     };
@@ -82,9 +98,11 @@ Mesh decodeBinary(std::string_view bytes, const std::string& fileName) {
     if (version != kVersion)
         fail("mesh.format", "the binary mesh has version " + std::to_string(version) +
                                 "; this program reads version 1");
-    if (flags > (kNormals | kUvs)) fail("mesh.format", "the binary mesh has unknown parts");
-    const std::uint64_t floats =
-        3 + ((flags & kNormals) != 0 ? 3U : 0) + ((flags & kUvs) != 0 ? 2U : 0);
+    if (flags > (kNormals | kUvs | kDoubles | kColors))
+        fail("mesh.format", "the binary mesh has unknown parts");
+    const bool isDouble = (flags & kDoubles) != 0;
+    const std::uint64_t floats = (isDouble ? 6U : 3U) + ((flags & kNormals) != 0 ? 3U : 0) +
+                                 ((flags & kUvs) != 0 ? 2U : 0) + ((flags & kColors) != 0 ? 1U : 0);
     if (bytes.size() != kHeader + 4 * (floats * vertices + indices) + kChecksum)
         fail("mesh.truncated", "the binary mesh has another length than its counts say");
     std::string_view tail = bytes.substr(bytes.size() - kChecksum);
@@ -93,11 +111,17 @@ Mesh decodeBinary(std::string_view bytes, const std::string& fileName) {
     if (indices % 3 != 0) fail("mesh.truncated", "the number of indices is no multiple of three");
     if (indices == 0) fail("mesh.empty", "the binary mesh holds no triangles");
     checkTriangles(indices / 3, fileName);
-    Mesh mesh;
-    getAll<3>(rest, vertices, mesh.positions, fileName, true);
+    RawMesh mesh;
+    getAll<3>(rest, vertices, mesh.positions, fileName, true, isDouble);
     // Normals that are no numbers are repaired later, as in every other format.
     if ((flags & kNormals) != 0) getAll<3>(rest, vertices, mesh.normals, fileName, false);
     if ((flags & kUvs) != 0) getAll<2>(rest, vertices, mesh.uvs, fileName, true);
+    mesh.colors.resize((flags & kColors) != 0 ? vertices : 0);
+    for (glm::u8vec4& color : mesh.colors) {
+        for (int k = 0; k < 3; ++k) color[k] = get<std::uint8_t>(rest);
+        color.a = 255;
+        rest.remove_prefix(1);
+    }
     mesh.indices.resize(indices);
     for (std::uint32_t& index : mesh.indices) {
         index = get<std::uint32_t>(rest);

@@ -3,11 +3,13 @@
 #include <string>
 #include <string_view>
 
+#include "generator/io/raw_mesh.h"
 #include "generator/io/rows.h"
 #include "generator/mesh.h"
 
-/// One reader and writer a format; mesh_file.cpp chooses among them. Readers throw Error mesh.*;
-/// they check indices and counts, but leave normals and winding to repair.h.
+/// One reader and writer a format; sniff.cpp chooses among them. Readers throw Error mesh.*
+/// with the line where they can; what they return is checked again as a whole (mesh.h), and
+/// normals and winding are left to repair.h.
 namespace farol::generator::io {
 
 std::string encodeText3d(const Mesh& mesh);
@@ -18,32 +20,51 @@ std::string encodeBinary(const Mesh& mesh);
 bool looksLikeBinary(std::string_view bytes);
 bool looksLikePly(std::string_view bytes);
 bool looksLikeObj(std::string_view bytes);
-bool looksLikeStl(std::string_view bytes);
-bool looksLikeOff(std::string_view bytes);
+bool looksLikeStl(std::string_view bytes, const std::string& fileName);
+bool looksLikeOff(std::string_view bytes, const std::string& fileName);
 
-Mesh decodeBinary(std::string_view bytes, const std::string& fileName);
-Mesh decodePly(std::string_view bytes, const std::string& fileName, bool facesNeeded);
-Mesh decodeObj(std::string_view bytes, const std::string& fileName);
-Mesh decodeStl(std::string_view bytes, const std::string& fileName);
-Mesh decodeOff(std::string_view bytes, const std::string& fileName);
+RawMesh decodeBinary(std::string_view bytes, const std::string& fileName);
+RawMesh decodePly(std::string_view bytes, const std::string& fileName, bool facesNeeded);
+RawMesh decodeObj(std::string_view bytes, const std::string& fileName);
+RawMesh decodeStl(std::string_view bytes, const std::string& fileName);
+RawMesh decodeOff(std::string_view bytes, const std::string& fileName);
 
 /// Blocks parted by blank lines: positions, [normals], [UVs], indices.
-Mesh decodeBlocks(const NumberRows& rows);
+RawMesh decodeBlocks(const NumberRows& rows);
 /// A first row of two counts: vertices and indices (or triangles).
-Mesh decodeCounted(const NumberRows& rows);
+RawMesh decodeCounted(const NumberRows& rows);
 /// A first row of one count: indices then vertices, or points, or points and normals.
-Mesh decodeSingleCount(const NumberRows& rows);
+RawMesh decodeSingleCount(const NumberRows& rows);
 /// Two to four sections, each after its count: positions, [normals], [UVs], indices.
-Mesh decodeSections(const NumberRows& rows);
+RawMesh decodeSections(const NumberRows& rows);
 bool looksLikeSections(const NumberRows& rows);
 /// No indices: every three vertices are a triangle. Rows before `first` are a head.
-Mesh decodeSoup(const NumberRows& rows, std::size_t first = 0);
+RawMesh decodeSoup(const NumberRows& rows, std::size_t first = 0);
+/// A soup whose vertices take three rows each from `first` on: position, normal, UV. The first two
+/// vertices decide: blocks of one position, one normal and one UV begin like a single one.
+bool looksLikeThreeLines(const NumberRows& rows, std::size_t first = 0);
 /// Coordinates alone, all in one row or each in its own, perhaps after their number.
-Mesh decodeStream(const NumberRows& rows);
+RawMesh decodeStream(const NumberRows& rows);
 bool looksLikeStream(const NumberRows& rows);
 /// Up to four lists, each on one line or ended by `;`: positions, indices, normals, UVs.
-Mesh decodeLists(std::string_view bytes, const std::string& fileName);
+RawMesh decodeLists(std::string_view bytes, const std::string& fileName);
 bool looksLikeLists(std::string_view bytes);
+
+/// Elements with numbers: <vertex x="0" y="0" z="0"/>, <triangle>...</triangle>.
+RawMesh decodeElements(std::string_view bytes, const std::string& fileName);
+bool looksLikeElements(std::string_view bytes);
+/// Numbers behind words that say what they are: "v: 0 0 0", "VERTICES:" before rows, JSON.
+RawMesh decodeLabelled(std::string_view bytes, const std::string& fileName);
+bool looksLabelled(std::string_view bytes);
+/// Nothing but little-endian floats, perhaps after their count: places, or places and normals and
+/// texture coordinates where those have unit length.
+RawMesh decodeFloats(std::string_view bytes, const std::string& fileName);
+bool looksLikeFloats(std::string_view bytes);
+
+/// Returns the three numbers from `v` on.
+inline glm::vec3 vec3At(const double* v) {
+    return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
+}
 
 /// Throws limit.triangles when `triangles` is over kMaxTriangles.
 void checkTriangles(std::size_t triangles, const std::string& fileName);

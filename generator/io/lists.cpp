@@ -42,7 +42,8 @@ std::vector<Vector> vectorsOf(const NumberRows& rows, const std::string& what) {
                         " numbers, not a multiple of " + std::to_string(N));
     std::vector<Vector> out(rows.values.size() / N);
     for (std::size_t i = 0; i < rows.values.size(); ++i)
-        out[i / N][static_cast<int>(i % N)] = static_cast<float>(rows.values[i]);
+        out[i / N][static_cast<int>(i % N)] =
+            static_cast<typename Vector::value_type>(rows.values[i]);
     return out;
 }
 
@@ -63,13 +64,20 @@ bool looksLikeLists(std::string_view bytes) {
     return count >= 2 && count <= 4;
 }
 
-Mesh decodeLists(std::string_view bytes, const std::string& file) {
+RawMesh decodeLists(std::string_view bytes, const std::string& file) {
     const auto lists = split(bytes);
-    Mesh mesh;
-    mesh.positions = vectorsOf<3, glm::vec3>(numbersOf(lists[0], bytes, file), "positions");
+    RawMesh mesh;
+    const NumberRows places = numbersOf(lists[0], bytes, file);
+    mesh.positions = vectorsOf<3, glm::dvec3>(places, "positions");
+    for (std::size_t i = 0; i + 2 < places.values.size(); i += 3)
+        placeAt(places, places.rows[0], &places.values[i]);
     const NumberRows indices = numbersOf(lists[1], bytes, file);
+    const double base =
+        indexBase(indices.values.data(), indices.values.data() + indices.values.size(),
+                  mesh.positions.size());
     for (const double value : indices.values)
-        mesh.indices.push_back(indexIn(indices, indices.rows[0], value, mesh.positions.size()));
+        mesh.indices.push_back(
+            indexIn(indices, indices.rows[0], value - base, mesh.positions.size()));
     if (mesh.indices.size() % 3 != 0)
         indices.refuse("mesh.truncated", indices.rows[0],
                        "the number of indices, " + std::to_string(mesh.indices.size()) +
@@ -82,7 +90,7 @@ Mesh decodeLists(std::string_view bytes, const std::string& file) {
     }
     if (lists.size() > 3) {
         const NumberRows rows = numbersOf(lists[3], bytes, file);
-        mesh.uvs = vectorsOf<2, glm::vec2>(rows, "texture coordinates");
+        mesh.uvs = vectorsOf<2, glm::dvec2>(rows, "texture coordinates");
         checkAsLong(rows, mesh.uvs, mesh.positions.size(), "texture coordinates");
     }
     return mesh;

@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/error.h"
 #include "generator/mesh.h"
-#include "scene/error.h"
 
 /// Mesh files in and out.
 namespace farol::generator::io {
@@ -19,7 +19,7 @@ enum class Format { text3d, obj, ply, binary };
 std::optional<Format> formatOf(const std::string& fileName);
 
 /// The file's bytes. Floats are written shortest such that they read back equal: decodeMesh of
-/// the result is the same mesh. Precondition: the mesh's indices are in range.
+/// the result is the same mesh. Precondition: the mesh has a triangle.
 std::string encodeMesh(const Mesh& mesh, Format format);
 
 /// Reads a mesh of any known form (also STL and OFF, which are not written); the content decides,

@@ -1,11 +1,14 @@
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <unordered_map>
+#include <map>
+#include <numeric>
+#include <optional>
 
+#include "core/text.h"
 #include "generator/io/formats.h"
 #include "generator/io/polygon.h"
-#include "generator/io/repair.h"
 #include "generator/io/writer.h"
 
 namespace farol::generator::io {
@@ -21,17 +24,9 @@ std::string_view nextWord(std::string_view& line) {
     return word;
 }
 
-/// A face's corner: numbers of position, texture coordinate and normal, from 0; -1 is none.
-using Corner = std::array<std::int64_t, 3>;
-
-struct CornerHash {
-    std::size_t operator()(const Corner& c) const {
-        std::uint64_t hash = 1469598103934665603U;  // FNV-1a
-        for (const std::int64_t part : c)
-            hash = (hash ^ static_cast<std::uint64_t>(part)) * 1099511628211U;
-        return static_cast<std::size_t>(hash ^ hash >> 29U);
-    }
-};
+/// A face's corner: numbers of position, texture coordinate and normal (or group of shared
+/// normals), from 0; -1 is none.
+using Corner = std::array<std::int32_t, 3>;
 
 class Reader {
   public:
@@ -41,148 +36,358 @@ class Reader {
         line_ = number;
         line = line.substr(0, line.find('#'));
         const std::string_view keyword = nextWord(line);
-        if (keyword == "v") positions_.push_back(vector<glm::vec3>(line, 3, 3));
-        if (keyword == "vt") uvs_.push_back(vector<glm::vec2>(line, 2, 1));
-        if (keyword == "vn") normals_.push_back(vector<glm::vec3>(line, 3, 3));
-        if (keyword == "f") readFace(line);
-        // Everything else (groups, materials, lines, curves) says nothing about the triangles.
+        if (keyword.empty()) return;
+        if (keyword == "v")
+            readVertex(line);
+        else if (keyword == "vt")
+            add(uvs_, dvec2(vector(line, 2, 1, true)));
+        else if (keyword == "vn")
+            add(normals_, glm::vec3(vector(line, 3, 3, true)));
+        else if (keyword == "f" || keyword == "fo")
+            readFace(line);
+        else if (keyword == "s")
+            smoothing_ = smoothingOf(nextWord(line));
+        else if (keyword == "usemtl")
+            chooseMaterial(trimmed(line));
+        else if (keyword == "l" || keyword == "p")
+            ++mesh_.leftOut[keyword == "l" ? "lines" : "points"];
+        else if (keyword != "o" && keyword != "g" && keyword != "mtllib" && keyword != "mg")
+            ++mesh_.leftOut["lines of the file with keywords that are not read"];
     }
 
-    Mesh take() {
-        if (corners_.empty()) fail("mesh.empty", "the OBJ file holds no faces");
-        const bool withUvs = has(1), withNormals = has(2);
-        if (!withNormals) computeNormals();
-        return isPlain(withUvs, withNormals) ? plainMesh(withUvs, withNormals) : splitMesh(withUvs);
+    RawMesh take() {
+        if (corners_.empty()) {
+            if (problem_) throw Error(Diagnostics{*problem_});
+            fail("mesh.empty", "the OBJ file holds no faces");
+        }
+        if (bareCorners_ > 0 && bareCorners_ < corners_.size()) {
+            mesh_.leftOut["normals, since other corners have none"] +=
+                corners_.size() - bareCorners_;
+            withNormals_ = false;
+        } else {
+            withNormals_ = bareCorners_ == 0;
+        }
+        sortByMaterial();
+        if (!withNormals_) groupNormals();
+        const bool plain = isPlain();
+        if (plain)
+            takePlain();
+        else
+            split();
+        return std::move(mesh_);
     }
 
   private:
+    using dvec2 = glm::dvec2;
+    using dvec3 = glm::dvec3;
+
     [[noreturn]] void fail(const char* code, const std::string& message) const {
         throw Error(code, message, {file_, line_, 1});
     }
 
     template <class Vector>
-    Vector vector(std::string_view line, int size, int needed) const {
-        Vector value(0);
+    void add(std::vector<Vector>& list, const Vector& value) const {
+        checkCounts(list.size() + 1, 0, file_);
+        list.push_back(value);
+    }
+
+    /// Up to `size` numbers, of which `needed` must be there. NaN only where it does no harm.
+    dvec3 vector(std::string_view& line, int size, int needed, bool nanAllowed) const {
+        dvec3 value(0.0);
         for (int k = 0; k < size; ++k) {
-            std::string_view word = nextWord(line);
+            const std::string_view word = nextWord(line);
             if (word.empty() && k >= needed) break;
-            double number = 0;
-            if (word.size() > 1 && word[0] == '+') word.remove_prefix(1);
-            const char* end = word.data() + word.size();
-            const auto [stop, failed] = std::from_chars(word.data(), end, number);
             if (word.empty())
                 fail("mesh.truncated", "expected " + std::to_string(needed) + " numbers");
-            if (stop != end || failed == std::errc::invalid_argument)
-                fail("mesh.syntax", "\"" + std::string(word.substr(0, 24)) + "\" is not a number");
-            if (failed != std::errc() || !std::isfinite(number) ||
-                std::abs(number) > kMaxCoordinate)
-                fail("mesh.number", "a number is not finite or beyond 1e18");
-            value[k] = static_cast<float>(number);
+            const std::optional<double> number = numberOf(word, {file_, line_, 1});
+            if (!number) fail("mesh.syntax", quoted(word) + " is not a number");
+            if (!nanAllowed && std::isnan(*number))
+                fail("mesh.number", "a coordinate is NaN or infinite; expected a number");
+            value[k] = *number;
         }
         return value;
     }
 
+    /// x y z, and perhaps a weight, or red, green and blue.
+    void readVertex(std::string_view line) {
+        add(positions_, vector(line, 3, 3, false));
+        std::array<double, 4> more{};
+        std::size_t count = 0;
+        for (std::string_view word = nextWord(line); !word.empty(); word = nextWord(line)) {
+            const std::optional<double> number = numberOf(word, {file_, line_, 1});
+            if (!number) fail("mesh.syntax", quoted(word) + " is not a number");
+            if (count < more.size()) more[count] = *number;
+            ++count;
+        }
+        if (count == 1 && more[0] != 1.0) ++mesh_.leftOut["weights of vertices"];
+        if (count < 3 || count > 4) {
+            if (!colors_.empty()) colors_.push_back({1.0, 1.0, 1.0});
+            return;
+        }
+        colors_.resize(positions_.size() - 1, dvec3(1.0));  // those before it are white
+        colors_.emplace_back(more[0], more[1], more[2]);
+        mostColor_ = std::max({mostColor_, more[0], more[1], more[2]});
+    }
+
+    /// 0: facets. "off" and "0" are, and files without the keyword.
+    static std::uint32_t smoothingOf(std::string_view word) {
+        std::uint32_t group = 0;
+        const auto [stop, failed] = std::from_chars(word.data(), word.data() + word.size(), group);
+        if (stop != word.data() + word.size() || failed != std::errc())
+            return sameWord(word, "on") ? 1 : 0;
+        return group;
+    }
+
+    static std::string_view trimmed(std::string_view text) {
+        const std::size_t first = text.find_first_not_of(" \t\r");
+        if (first == std::string_view::npos) return {};
+        return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
+    }
+
+    void chooseMaterial(std::string_view name) {
+        const std::string key(name.substr(0, 256));
+        const auto found = materialOf_.find(key);
+        if (found != materialOf_.end()) {
+            material_ = found->second;
+        } else if (materials_.size() < kMaxParts) {
+            material_ = static_cast<std::uint32_t>(materials_.size());
+            materialOf_.emplace(key, material_);
+            materials_.push_back(key);
+        } else {
+            ++mesh_.leftOut["materials after the first " + std::to_string(kMaxParts)];
+        }
+    }
+
     /// One part of "7/1/3": counted from 1, or from the end when negative; 0 parts are errors.
-    std::int64_t index(std::string_view word, std::size_t size, const char* what) const {
+    /// Returns -2 where it is out of range.
+    std::int32_t index(std::string_view word, std::size_t size) const {
         std::int64_t number = 0;
         const char* end = word.data() + word.size();
         const auto [stop, failed] = std::from_chars(word.data(), end, number);
-        if (stop != end || failed != std::errc() || number == 0)
-            fail("mesh.syntax", "\"" + std::string(word.substr(0, 24)) + "\" is no index");
+        if (stop != end || failed == std::errc::invalid_argument || number == 0)
+            fail("mesh.syntax", quoted(word) + " is no index");
         const auto count = static_cast<std::int64_t>(size);
         const std::int64_t at = number > 0 ? number - 1 : count + number;
-        if (number < -count || number > count)
-            fail("mesh.index", "the index " + std::to_string(number) +
-                                   " is out of range: there are " + std::to_string(size) + " " +
-                                   what);
-        return at;
+        if (failed != std::errc() || number < -count || number > count) return -2;
+        return static_cast<std::int32_t>(at);  // lists are within kMaxVertices
     }
 
-    Corner corner(std::string_view word) const {
+    /// Nothing where one of its indices is out of range.
+    std::optional<Corner> corner(std::string_view word) {
         Corner out{-1, -1, -1};
         const std::size_t sizes[3] = {positions_.size(), uvs_.size(), normals_.size()};
         const char* const names[3] = {"vertices", "texture coordinates", "normals"};
         for (std::size_t k = 0; k < 3; ++k) {
             const std::size_t end = std::min(word.find('/'), word.size());
-            if (end > 0 || k == 0) out[k] = index(word.substr(0, end), sizes[k], names[k]);
+            const std::string_view part = word.substr(0, end);
+            if (end > 0 || k == 0) out[k] = index(part, sizes[k]);
+            if (out[k] == -2 && k > 0 && sizes[k] == 0) {
+                out[k] = -1;  // a file that has none at all
+            } else if (out[k] == -2) {
+                note("mesh.index", "the index " + std::string(part.substr(0, 24)) +
+                                       " is out of range: there are " + std::to_string(sizes[k]) +
+                                       " " + names[k]);
+                return std::nullopt;
+            }
             if (end == word.size()) return out;
             word.remove_prefix(end + 1);
         }
         fail("mesh.syntax", "a corner of a face has at most three parts");
     }
 
+    /// Keeps the first problem of a face that is left out: the error where no face is left.
+    void note(const char* code, const std::string& message) {
+        if (problem_) return;
+        problem_.emplace();
+        problem_->code = code;
+        problem_->where = {file_, line_, 1};
+        problem_->message = message;
+    }
+
     void readFace(std::string_view line) {
-        std::vector<Corner> face;
-        for (std::string_view word = nextWord(line); !word.empty(); word = nextWord(line))
-            face.push_back(corner(word));
-        if (face.size() < 3) fail("mesh.syntax", "a face needs at least three corners");
-        checkTriangles(corners_.size() / 3 + face.size() - 2, file_);
+        face_.clear();
+        for (std::string_view word = nextWord(line); !word.empty(); word = nextWord(line)) {
+            const std::optional<Corner> one = corner(word);
+            if (!one) {
+                ++mesh_.leftOut["faces with an index out of range"];
+                return;
+            }
+            face_.push_back(*one);
+        }
+        if (face_.size() < 3) {
+            note("mesh.syntax", "a face needs at least three corners");
+            ++mesh_.leftOut["faces of less than three corners"];
+            return;
+        }
+        checkTriangles(corners_.size() / 3 + face_.size() - 2, file_);
         places_.clear();
-        for (const Corner& one : face)
+        for (const Corner& one : face_)
             places_.push_back(positions_[static_cast<std::size_t>(one[0])]);
         triangulate(places_, triangles_);
-        for (const auto& [a, b, c] : triangles_)
-            corners_.insert(corners_.end(), {face[a], face[b], face[c]});
-    }
-
-    /// True when all corners name the part: otherwise it is left out (or computed) for all.
-    bool has(std::size_t part) const {
-        for (const Corner& one : corners_)
-            if (one[part] < 0) return false;
-        return true;
-    }
-
-    /// By position, so that a texture's seam does not become an edge.
-    void computeNormals() {
-        std::vector<std::uint32_t> indices;
-        for (Corner& one : corners_) {
-            indices.push_back(static_cast<std::uint32_t>(one[0]));
-            one[2] = one[0];
+        for (const auto& [a, b, c] : triangles_) {
+            for (const std::uint32_t k : {a, b, c}) {
+                corners_.push_back(face_[k]);
+                if (face_[k][1] >= 0) ++uvCorners_;
+                if (face_[k][2] < 0) ++bareCorners_;
+            }
+            triangleFaces_.push_back({material_, smoothing_, faces_});
         }
-        normals_ = vertexNormals(positions_, indices);
+        ++faces_;
+    }
+
+    /// Brings the triangles of each material together, in the order of their first use.
+    void sortByMaterial() {
+        if (materials_.size() <= 1) return;
+        std::vector<std::uint32_t> order(triangleFaces_.size());
+        std::iota(order.begin(), order.end(), 0U);
+        std::stable_sort(order.begin(), order.end(), [this](std::uint32_t a, std::uint32_t b) {
+            return triangleFaces_[a].material < triangleFaces_[b].material;
+        });
+        std::vector<Corner> corners;
+        std::vector<Source> sources;
+        corners.reserve(corners_.size());
+        for (const std::uint32_t t : order) {
+            corners.insert(corners.end(), corners_.begin() + 3 * std::ptrdiff_t{t},
+                           corners_.begin() + 3 * std::ptrdiff_t{t} + 3);
+            sources.push_back(triangleFaces_[t]);
+        }
+        corners_ = std::move(corners);
+        triangleFaces_ = std::move(sources);
+        for (std::size_t t = 0; t < triangleFaces_.size(); ++t) {
+            const std::uint32_t material = triangleFaces_[t].material;
+            if (mesh_.parts.empty() || materials_[material] != mesh_.parts.back().material)
+                mesh_.parts.push_back({materials_[material], 3 * t, 0});
+            mesh_.parts.back().count += 3;
+        }
+    }
+
+    /// Numbers groups of corners that share a computed normal: those of one smoothing group at one
+    /// position (so that a texture's seam does not become an edge), or those of one face.
+    void groupNormals() {
+        const bool one =
+            std::all_of(triangleFaces_.begin(), triangleFaces_.end(), [this](const Source& source) {
+                return source.smoothing != 0 && source.smoothing == triangleFaces_[0].smoothing;
+            });
+        if (one) {
+            for (Corner& corner : corners_) corner[2] = corner[0];
+            return;
+        }
+        std::int32_t next = 0;
+        std::vector<std::uint32_t> smooth;  // corners of smoothing groups
+        for (std::uint32_t i = 0; i < corners_.size(); ++i) {
+            const Source& source = triangleFaces_[i / 3];
+            if (source.smoothing != 0) {
+                smooth.push_back(i);
+                continue;
+            }
+            const bool known = i > 0 && triangleFaces_[(i - 1) / 3].face == source.face;
+            corners_[i][2] = known ? corners_[i - 1][2] : next++;
+        }
+        const auto keyOf = [this](std::uint32_t i) {
+            return std::pair(triangleFaces_[i / 3].smoothing, corners_[i][0]);
+        };
+        std::sort(smooth.begin(), smooth.end(),
+                  [&keyOf](std::uint32_t a, std::uint32_t b) { return keyOf(a) < keyOf(b); });
+        for (std::size_t k = 0; k < smooth.size(); ++k) {
+            const bool known = k > 0 && keyOf(smooth[k]) == keyOf(smooth[k - 1]);
+            corners_[smooth[k]][2] = known ? corners_[smooth[k - 1]][2] : next++;
+        }
     }
 
     /// True when positions, texture coordinates and normals go by the same numbers.
-    bool isPlain(bool withUvs, bool withNormals) const {
-        if (withUvs && uvs_.size() != positions_.size()) return false;
-        if (withNormals && normals_.size() != positions_.size()) return false;
+    bool isPlain() const {
+        if (uvCorners_ > 0 && uvs_.size() != positions_.size()) return false;
+        if (withNormals_ && normals_.size() != positions_.size()) return false;
         for (const Corner& one : corners_)
-            if ((withUvs && one[1] != one[0]) || one[2] != one[0]) return false;
+            if ((uvCorners_ > 0 && one[1] != one[0]) || one[2] != one[0]) return false;
         return true;
     }
 
-    Mesh plainMesh(bool withUvs, bool withNormals) {
-        Mesh mesh;
+    void takePlain() {
         for (const Corner& one : corners_)
-            mesh.indices.push_back(static_cast<std::uint32_t>(one[0]));
-        mesh.positions = std::move(positions_);
-        if (withUvs) mesh.uvs = std::move(uvs_);
-        if (withNormals) mesh.normals = std::move(normals_);
-        return mesh;
+            mesh_.indices.push_back(static_cast<std::uint32_t>(one[0]));
+        for (const dvec3& color : colors_) mesh_.colors.push_back(rgba(color));
+        if (!colors_.empty()) mesh_.colors.resize(positions_.size(), glm::u8vec4(255));
+        mesh_.positions = std::move(positions_);
+        if (uvCorners_ > 0) mesh_.uvs = std::move(uvs_);
+        if (withNormals_) mesh_.normals = std::move(normals_);
     }
 
-    Mesh splitMesh(bool withUvs) const {
-        Mesh mesh;
-        std::unordered_map<Corner, std::uint32_t, CornerHash> known;
-        for (Corner one : corners_) {
-            if (!withUvs) one[1] = -1;
-            const auto next = static_cast<std::uint32_t>(mesh.positions.size());
-            const auto [at, fresh] = known.try_emplace(one, next);
-            mesh.indices.push_back(at->second);
-            if (!fresh) continue;
-            mesh.positions.push_back(positions_[static_cast<std::size_t>(one[0])]);
-            mesh.normals.push_back(normals_[static_cast<std::size_t>(one[2])]);
-            if (withUvs) mesh.uvs.push_back(uvs_[static_cast<std::size_t>(one[1])]);
-        }
-        return mesh;
+    glm::u8vec4 rgba(const dvec3& color) const {
+        const double most = mostColor_ > 1.0 ? 255.0 : 1.0;
+        return {channelOf(color.x, most), channelOf(color.y, most), channelOf(color.z, most), 255};
     }
+
+    /// Gives every different corner a vertex, in the order of their first use.
+    void split() {
+        if (uvCorners_ == 0)
+            for (Corner& one : corners_) one[1] = -1;
+        // Sorted, not hashed: a file must not choose how many corners share a bucket.
+        std::vector<std::uint32_t> order(corners_.size()), vertexOf(corners_.size());
+        std::iota(order.begin(), order.end(), 0U);
+        std::sort(order.begin(), order.end(), [this](std::uint32_t a, std::uint32_t b) {
+            return corners_[a] != corners_[b] ? corners_[a] < corners_[b] : a < b;
+        });
+        for (std::size_t i = 0; i < order.size(); ++i) {  // to the first use of an equal corner
+            const bool equal = i > 0 && corners_[order[i]] == corners_[order[i - 1]];
+            vertexOf[order[i]] = equal ? vertexOf[order[i - 1]] : order[i];
+        }
+        std::vector<std::uint32_t> firstOfGroup;
+        mesh_.indices.reserve(corners_.size());
+        for (std::size_t i = 0; i < corners_.size(); ++i) {
+            const std::size_t first = vertexOf[i];
+            if (first == i) {
+                const Corner& one = corners_[i];
+                const auto vertex = static_cast<std::uint32_t>(mesh_.positions.size());
+                const auto position = static_cast<std::size_t>(one[0]);
+                vertexOf[i] = vertex;
+                mesh_.positions.push_back(positions_[position]);
+                if (!colors_.empty())
+                    mesh_.colors.push_back(position < colors_.size() ? rgba(colors_[position])
+                                                                     : glm::u8vec4(255));
+                if (uvCorners_ > 0)
+                    mesh_.uvs.push_back(one[1] < 0 ? dvec2(0.0)
+                                                   : uvs_[static_cast<std::size_t>(one[1])]);
+                if (withNormals_) {
+                    mesh_.normals.push_back(normals_[static_cast<std::size_t>(one[2])]);
+                } else {  // the group goes by its first vertex
+                    const auto group = static_cast<std::size_t>(one[2]);
+                    if (group >= firstOfGroup.size()) firstOfGroup.resize(group + 1, kNone);
+                    if (firstOfGroup[group] == kNone) firstOfGroup[group] = vertex;
+                    mesh_.smooth.push_back(firstOfGroup[group]);
+                }
+            }
+            mesh_.indices.push_back(vertexOf[first]);
+        }
+        const std::size_t bare = corners_.size() - uvCorners_;
+        if (uvCorners_ > 0 && bare > 0)
+            mesh_.leftOut["corners without a texture coordinate, which have (0, 0)"] += bare;
+    }
+
+    static constexpr std::uint32_t kNone = ~0U;
+
+    /// Where a triangle comes from.
+    struct Source {
+        std::uint32_t material, smoothing, face;
+    };
 
     const std::string& file_;
     int line_ = 1;
-    std::vector<glm::vec3> positions_, normals_;
-    std::vector<glm::vec2> uvs_;
+    RawMesh mesh_;
+    std::vector<dvec3> positions_, colors_;  ///< colours: as long as positions once there is one
+    std::vector<glm::vec3> normals_;
+    std::vector<dvec2> uvs_;
     std::vector<Corner> corners_;
-    std::vector<glm::vec3> places_;  // of the face being read
+    std::vector<Source> triangleFaces_;
+    std::vector<std::string> materials_{std::string()};  ///< the first: none is named
+    std::map<std::string, std::uint32_t> materialOf_{{std::string(), 0}};
+    std::uint32_t material_ = 0, smoothing_ = 0, faces_ = 0;
+    std::size_t uvCorners_ = 0, bareCorners_ = 0;
+    double mostColor_ = 1.0;
+    bool withNormals_ = true;
+    std::optional<Diagnostic> problem_;
+    std::vector<Corner> face_;
+    std::vector<dvec3> places_;  // of the face being read
     std::vector<FaceTriangle> triangles_;
 };
 
@@ -190,16 +395,25 @@ class Reader {
 
 std::string encodeObj(const Mesh& mesh) {
     Writer out;
-    for (const glm::vec3& p : mesh.positions) out.row({p.x, p.y, p.z}, "v");
-    for (const glm::vec2& uv : mesh.uvs) out.row({uv.x, uv.y}, "vt");
-    for (const glm::vec3& n : mesh.normals) out.row({n.x, n.y, n.z}, "vn");
-    for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
-        const std::uint64_t number = std::uint64_t{mesh.indices[i]} + 1;
+    for (std::size_t i = 0; i < mesh.positions().size(); ++i) {
+        out.text("v ");
+        out.place(mesh, i);
+        for (int k = 0; k < 3 && !mesh.colors().empty(); ++k) {
+            out.text(" ");
+            out.number(static_cast<float>(mesh.colors()[i][k]) / 255.0F);
+        }
+        out.text("\n");
+    }
+    if (mesh.normals().empty()) out.text("s 1\n");  // else they would be facets when read
+    for (const glm::vec2& uv : mesh.uvs()) out.row({uv.x, uv.y}, "vt");
+    for (const glm::vec3& n : mesh.normals()) out.row({n.x, n.y, n.z}, "vn");
+    for (std::size_t i = 0; i < mesh.indices().size(); ++i) {
+        const std::uint64_t number = std::uint64_t{mesh.indices()[i]} + 1;
         out.text(i % 3 == 0 ? "f " : " ");
         out.number(number);
-        if (!mesh.uvs.empty() || !mesh.normals.empty()) out.text("/");
-        if (!mesh.uvs.empty()) out.number(number);
-        if (!mesh.normals.empty()) {
+        if (!mesh.uvs().empty() || !mesh.normals().empty()) out.text("/");
+        if (!mesh.uvs().empty()) out.number(number);
+        if (!mesh.normals().empty()) {
             out.text("/");
             out.number(number);
         }
@@ -222,7 +436,7 @@ bool looksLikeObj(std::string_view bytes) {
     return false;
 }
 
-Mesh decodeObj(std::string_view bytes, const std::string& fileName) {
+RawMesh decodeObj(std::string_view bytes, const std::string& fileName) {
     Reader reader(fileName);
     std::string joined;  // a line that goes on after a backslash
     int number = 0;

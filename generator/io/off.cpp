@@ -1,55 +1,182 @@
+#include <algorithm>
+#include <array>
+#include <cctype>
+
+#include "core/text.h"
 #include "generator/io/formats.h"
 #include "generator/io/polygon.h"
 
 namespace farol::generator::io {
 namespace {
 
-constexpr std::string_view kKeyword = "OFF";
+/// What a vertex has, by the letters before "OFF" (Geomview's order of the numbers: place, normal,
+/// colour, texture coordinate).
+struct OffHead {
+    std::size_t length = 0;  ///< of the word, with blanks before it; 0: no word
+    bool uvs = false, colors = false, normals = false, weights = false;
+    std::size_t bytes = 0;
+};
+
+/// The word that OFF files begin with: [ST][C][N][4]OFF, any case; none where it is another.
+OffHead headOf(std::string_view bytes) {
+    OffHead head;
+    std::size_t at = bytes.find_first_not_of(" \t\r\n");
+    if (at == std::string_view::npos) return {};
+    const std::size_t end = std::min(bytes.find_first_of(" \t\r\n#", at), bytes.size());
+    std::string word = lowerCase(std::string(bytes.substr(at, std::min<std::size_t>(end - at, 8))));
+    const auto drop = [&word](std::string_view prefix) {
+        if (word.rfind(prefix, 0) != 0) return false;
+        word.erase(0, prefix.size());
+        return true;
+    };
+    head.uvs = drop("st");
+    head.colors = drop("c");
+    head.normals = drop("n");
+    head.weights = drop("4");
+    if (word != "off") return {};
+    head.length = end;
+    return head;
+}
+
+/// Numbers of a colour that begin at `v`: three or four, 0..1 or 0..255 (`most`).
+glm::u8vec4 colorAt(const double* v, double most) {
+    return {channelOf(v[0], most), channelOf(v[1], most), channelOf(v[2], most), 255};
+}
+
+class OffReader {
+  public:
+    OffReader(const NumberRows& rows, const OffHead& head) : rows_(rows), head_(head) {}
+
+    RawMesh read() {
+        const Row& head = rows_.rows[0];
+        if (head.count < 2 || !isCount(rows_.at(head)[0]) || !isCount(rows_.at(head)[1]))
+            rows_.refuse("mesh.count", head, "expected the numbers of vertices and of faces");
+        const double vertices = rows_.at(head)[0], faces = rows_.at(head)[1];
+        if (vertices + faces > static_cast<double>(rows_.rows.size() - 1))
+            rows_.refuse("mesh.truncated", head, "the file is shorter than its counts say");
+        first_ = 1 + static_cast<std::size_t>(vertices);
+        last_ = first_ + static_cast<std::size_t>(faces);
+        for (std::size_t i = 1; i < first_; ++i) readVertex(rows_.rows[i]);
+        findMost();
+        for (std::size_t i = first_; i < last_; ++i) readFace(rows_.rows[i]);
+        if (mesh_.indices.empty()) {
+            if (problem_) throw Error(Diagnostics{*problem_});
+            rows_.refuse("mesh.empty", head, "the OFF file holds no faces");
+        }
+        if (head_.colors) takeVertexColors();
+        if (anyFaceColor_) splitByColor(mesh_, faceColors_);
+        return std::move(mesh_);
+    }
+
+  private:
+    void readVertex(const Row& row) {
+        const double* v = rows_.at(row);
+        std::size_t need = 3 + (head_.weights ? 1 : 0) + (head_.normals ? 3 : 0) +
+                           (head_.colors ? 3 : 0) + (head_.uvs ? 2 : 0);
+        if (row.count < need)
+            rows_.refuse("mesh.syntax", row, "expected " + std::to_string(need) + " numbers");
+        glm::dvec3 place = placeAt(rows_, row, v);
+        std::size_t at = 3;
+        if (head_.weights) {
+            if (v[3] != 0.0) place /= v[3];
+            ++at;
+        }
+        mesh_.positions.push_back(place);
+        if (head_.normals) mesh_.normals.push_back(vec3At(v + at));
+        at += head_.normals ? 3 : 0;
+        colorAt_ = at;
+        if (head_.uvs) mesh_.uvs.emplace_back(v[row.count - 2], v[row.count - 1]);
+        // Without letters that say so: colours behind the place, as many programs write them.
+        const std::size_t extra = row.count - at - (head_.uvs ? 2 : 0);
+        if (!head_.colors && extra > 0) ++mesh_.leftOut["numbers behind a vertex's own"];
+    }
+
+    /// Colours are 0..1, unless one of them is larger.
+    void findMost() {
+        const auto look = [this](const double* v, std::size_t count) {
+            for (std::size_t k = 0; k < std::min<std::size_t>(count, 3); ++k)
+                if (v[k] > 1.0) most_ = 255.0;
+        };
+        for (std::size_t i = 1; i < first_ && head_.colors; ++i)
+            look(rows_.at(rows_.rows[i]) + colorAt_, rows_.rows[i].count - colorAt_);
+        for (std::size_t i = first_; i < last_; ++i) {
+            const Row& row = rows_.rows[i];
+            const double* v = rows_.at(row);
+            if (!isCount(v[0]) || v[0] > row.count - 1.0) continue;
+            const std::size_t after = 1 + static_cast<std::size_t>(v[0]);
+            if (row.count >= after + 3) look(v + after, row.count - after);
+        }
+    }
+
+    void takeVertexColors() {
+        for (std::size_t i = 1; i < first_; ++i)
+            mesh_.colors.push_back(colorAt(rows_.at(rows_.rows[i]) + colorAt_, most_));
+    }
+
+    void lose(const Error& error) {
+        if (!problem_) problem_ = error.primary();
+        ++mesh_.leftOut["faces with an index out of range"];
+    }
+
+    void readFace(const Row& row) {
+        const double* v = rows_.at(row);  // the number of corners, these, perhaps a colour
+        if (!isCount(v[0]) || v[0] > row.count - 1.0)
+            rows_.refuse("mesh.syntax", row, "expected a number of corners from 3 on, and these");
+        const auto corners = static_cast<std::size_t>(v[0]);
+        if (corners < 3) {
+            ++mesh_.leftOut["faces of less than three corners"];
+            return;
+        }
+        checkTriangles(mesh_.triangles() + corners - 2, rows_.file);
+        places_.clear();
+        face_.clear();
+        try {
+            for (std::size_t k = 0; k < corners; ++k)
+                face_.push_back(indexIn(rows_, row, v[1 + k], mesh_.positions.size()));
+        } catch (const Error& error) {
+            return lose(error);
+        }
+        for (const std::uint32_t corner : face_) places_.push_back(mesh_.positions[corner]);
+        triangulate(places_, triangles_);
+        const std::size_t left = row.count - 1 - corners;  // one number is an index in a colour map
+        const bool colored = left >= 3;
+        anyFaceColor_ = anyFaceColor_ || colored;
+        const glm::u8vec4 color =
+            colored ? colorAt(v + 1 + corners, most_) : glm::u8vec4(255, 255, 255, 255);
+        for (const auto& [a, b, c] : triangles_) {
+            mesh_.indices.insert(mesh_.indices.end(), {face_[a], face_[b], face_[c]});
+            faceColors_.push_back(color);
+        }
+    }
+
+    const NumberRows& rows_;
+    OffHead head_;
+    RawMesh mesh_;
+    std::size_t first_ = 0, last_ = 0;  ///< rows of the faces
+    std::size_t colorAt_ = 3;           ///< of a vertex's numbers
+    double most_ = 1.0;                 ///< a channel's full value
+    bool anyFaceColor_ = false;
+    std::vector<glm::u8vec4> faceColors_;  ///< of each triangle
+    std::vector<std::uint32_t> face_;
+    std::vector<glm::dvec3> places_;
+    std::vector<FaceTriangle> triangles_;
+    std::optional<Diagnostic> problem_;  ///< of the first face that was lost
+};
 
 }  // namespace
 
-bool looksLikeOff(std::string_view bytes) {
-    return bytes.substr(0, kKeyword.size()) == kKeyword && bytes.size() > kKeyword.size() &&
-           std::string_view(" \t\r\n#").find(bytes[kKeyword.size()]) != std::string_view::npos;
+bool looksLikeOff(std::string_view bytes, const std::string& fileName) {
+    return headOf(bytes).length > 0 || fileEnding(fileName) == "off";
 }
 
-Mesh decodeOff(std::string_view bytes, const std::string& fileName) {
-    const NumberRows rows = parseRows(bytes.substr(kKeyword.size()), fileName, 1,
-                                      static_cast<int>(kKeyword.size()) + 1);
-    const Row& head = rows.rows[0];
-    if (head.count < 2 || !isCount(rows.at(head)[0]) || !isCount(rows.at(head)[1]))
-        rows.refuse("mesh.count", head, "expected the numbers of vertices and of faces");
-    const double vertices = rows.at(head)[0], faces = rows.at(head)[1];
-    if (vertices + faces > static_cast<double>(rows.rows.size() - 1))
-        rows.refuse("mesh.truncated", head, "the file is shorter than its counts say");
-    const std::size_t first = 1 + static_cast<std::size_t>(vertices);
-    Mesh mesh;
-    for (std::size_t i = 1; i < first; ++i) {
-        const Row& row = rows.rows[i];
-        const double* v = rows.at(row);
-        if (row.count < 3) rows.refuse("mesh.syntax", row, "expected 3 numbers");
-        mesh.positions.emplace_back(v[0], v[1], v[2]);
-    }
-    std::vector<glm::vec3> places;
-    std::vector<FaceTriangle> triangles;
-    for (std::size_t i = first; i < first + static_cast<std::size_t>(faces); ++i) {
-        const Row& row = rows.rows[i];
-        const double* v = rows.at(row);  // the number of corners, these, perhaps a colour
-        if (!isCount(v[0]) || v[0] < 3 || v[0] > row.count - 1.0)
-            rows.refuse("mesh.syntax", row, "expected a number of corners from 3 on, and these");
-        const auto corner = [&](std::size_t k) {
-            return indexIn(rows, row, v[1 + k], mesh.positions.size());
-        };
-        const auto corners = static_cast<std::size_t>(v[0]);
-        checkTriangles(mesh.triangles() + corners - 2, fileName);
-        places.clear();
-        for (std::size_t k = 0; k < corners; ++k) places.push_back(mesh.positions[corner(k)]);
-        triangulate(places, triangles);
-        for (const auto& [a, b, c] : triangles)
-            mesh.indices.insert(mesh.indices.end(), {corner(a), corner(b), corner(c)});
-    }
-    if (mesh.indices.empty()) rows.refuse("mesh.empty", head, "the OFF file holds no faces");
-    return mesh;
+RawMesh decodeOff(std::string_view bytes, const std::string& fileName) {
+    const OffHead head = headOf(bytes);
+    const std::string_view before = bytes.substr(0, head.length);
+    const auto lines = static_cast<int>(std::count(before.begin(), before.end(), '\n'));
+    const std::size_t column = before.size() - (before.rfind('\n') + 1);  // npos + 1 is 0
+    const NumberRows rows =
+        parseRows(bytes.substr(head.length), fileName, 1 + lines, static_cast<int>(column) + 1);
+    return OffReader(rows, head).read();
 }
 
 }  // namespace farol::generator::io

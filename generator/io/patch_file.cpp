@@ -1,5 +1,6 @@
 #include "generator/io/patch_file.h"
 
+#include "generator/io/plain_text.h"
 #include "generator/io/rows.h"
 
 namespace farol::generator::io {
@@ -32,7 +33,8 @@ std::size_t readCount(const NumberRows& rows, std::size_t at, std::uint32_t widt
 }  // namespace
 
 PatchFile parsePatchFile(std::string_view bytes, const std::string& fileName) {
-    const NumberRows rows = parseRows(bytes, fileName);
+    std::string storage;
+    const NumberRows rows = parseRows(plainText(bytes, storage), fileName);
     const std::size_t patches = readCount(rows, 0, 16, "patches");
     const std::size_t pointsAt = patches + 1;
     const std::size_t points = readCount(rows, pointsAt, 3, "control points");
@@ -46,8 +48,7 @@ PatchFile parsePatchFile(std::string_view bytes, const std::string& fileName) {
             index = indexIn(rows, row, rows.at(row)[k++], points);
     }
     for (std::size_t i = pointsAt + 1; i < rows.rows.size(); ++i) {
-        const double* xyz = rows.at(rows.rows[i]);
-        out.points.emplace_back(xyz[0], xyz[1], xyz[2]);
+        out.points.push_back(placeAt(rows, rows.rows[i], rows.at(rows.rows[i])));
     }
     return out;
 }

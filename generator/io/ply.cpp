@@ -1,13 +1,17 @@
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <charconv>
 #include <cmath>
 #include <cstring>
+#include <optional>
 
+#include "core/text.h"
 #include "generator/io/formats.h"
 #include "generator/io/ply_header.h"
 #include "generator/io/polygon.h"
 #include "generator/io/writer.h"
+#include "generator/messages.h"
 
 namespace farol::generator::io {
 namespace {
@@ -17,18 +21,27 @@ class Values {
   public:
     Values(std::string_view bytes, const PlyHeader& header, const std::string& file)
         : rest_(bytes.substr(header.bytes)),
+          size_(bytes.size()),
           file_(file),
           encoding_(header.encoding),
           line_(header.lines + 1) {}
 
+    /// May be NaN or infinite.
     double next(PlyType type) {
-        const double value = encoding_ == PlyEncoding::ascii ? nextWord() : nextBinary(type);
-        if (!std::isfinite(value)) fail("mesh.number", "a number is not finite");
-        return value;
+        return encoding_ == PlyEncoding::ascii ? nextWord() : nextBinary(type);
     }
 
+    /// Throws at the line of the value read last; a binary file has bytes instead.
     [[noreturn]] void fail(const char* code, const std::string& message) const {
-        throw Error(code, message, {file_, encoding_ == PlyEncoding::ascii ? line_ : 0, 0});
+        if (encoding_ == PlyEncoding::ascii) throw Error(code, message, {file_, line_, 0});
+        throw Error(code, message + " (byte " + std::to_string(size_ - rest_.size()) + ")",
+                    {file_, 0, 0});
+    }
+
+    /// Throws at the element's line in the header.
+    [[noreturn]] void fail(const char* code, const PlyElement& element,
+                           const std::string& message) const {
+        throw Error(code, message, {file_, element.line, 1});
     }
 
   private:
@@ -40,14 +53,10 @@ class Values {
         if (rest_.empty()) fail("mesh.truncated", "the PLY file ends too early");
         std::size_t length = 0;
         while (length < rest_.size() && static_cast<unsigned char>(rest_[length]) > ' ') ++length;
-        double value = 0;
-        const char* begin = rest_.data() + (rest_[0] == '+' ? 1 : 0);
-        const auto [stop, failed] = std::from_chars(begin, rest_.data() + length, value);
-        if (stop != rest_.data() + length || failed == std::errc::invalid_argument)
-            fail("mesh.syntax", "expected a number");
-        if (failed != std::errc()) fail("mesh.number", "a number is out of range");
+        const std::optional<double> value = numberOf(rest_.substr(0, length), {file_, line_, 0});
+        if (!value) fail("mesh.syntax", "expected a number");
         rest_.remove_prefix(length);
-        return value;
+        return *value;
     }
 
     template <class Integer>
@@ -87,27 +96,62 @@ class Values {
     }
 
     std::string_view rest_;
+    std::size_t size_;  ///< of the whole file, bytes
     const std::string& file_;
     PlyEncoding encoding_;
     int line_;
 };
 
-/// Which of x y z nx ny nz u v a property is, or -1.
+/// A vertex's or face's numbers that are drawn; others are skipped.
+constexpr std::size_t kSlots = 11;
+constexpr unsigned kPlaceBits = 7U, kNormalBits = 0x38U, kUvBits = 0xC0U, kColorBits = 0x700U;
+
+/// Which of x y z nx ny nz u v red green blue a property is, or -1.
 int slotOf(const PlyProperty& property) {
-    static const std::array<std::vector<const char*>, 8> kNames{
+    static const std::array<std::vector<const char*>, kSlots> kNames{
         {{"x"},
          {"y"},
          {"z"},
-         {"nx"},
-         {"ny"},
-         {"nz"},
+         {"nx", "normal_x"},
+         {"ny", "normal_y"},
+         {"nz", "normal_z"},
          {"u", "s", "texture_u", "texture_s"},
-         {"v", "t", "texture_v", "texture_t"}}};
+         {"v", "t", "texture_v", "texture_t"},
+         {"red", "r", "diffuse_red"},
+         {"green", "g", "diffuse_green"},
+         {"blue", "b", "diffuse_blue"}}};
     if (property.list) return -1;
     for (std::size_t i = 0; i < kNames.size(); ++i)
         for (const char* name : kNames[i])
             if (property.name == name) return static_cast<int>(i);
     return -1;
+}
+
+/// The slots of an element's properties, and which there are.
+struct Slots {
+    std::vector<int> of;
+    unsigned have = 0;
+    double most = 255.0;  ///< a colour's full value: 1 for floats, else that of the type
+
+    explicit Slots(const PlyElement& element) {
+        for (const PlyProperty& property : element.properties) {
+            const int slot = slotOf(property);
+            of.push_back(slot);
+            if (slot >= 0) have |= 1U << static_cast<unsigned>(slot);
+            if (slot < 8) continue;
+            most = property.type >= PlyType::float32                                     ? 1.0
+                   : property.type == PlyType::int16 || property.type == PlyType::uint16 ? 65535.0
+                                                                                         : 255.0;
+        }
+    }
+    bool hasColor() const { return (have & kColorBits) == kColorBits; }
+    glm::u8vec4 color(const std::array<double, kSlots>& v) const {
+        return {channelOf(v[8], most), channelOf(v[9], most), channelOf(v[10], most), 255};
+    }
+};
+
+bool isCornerList(const PlyProperty& property) {
+    return property.list && (property.name == "vertex_indices" || property.name == "vertex_index");
 }
 
 /// A list's length, which must fit into a face or be skipped.
@@ -119,64 +163,187 @@ std::size_t listLength(Values& values, const PlyProperty& property) {
     return static_cast<std::size_t>(length);
 }
 
-void readVertices(Values& values, const PlyElement& element, Mesh& mesh) {
-    std::vector<int> slots;
-    unsigned have = 0;
-    for (const PlyProperty& property : element.properties) {
-        slots.push_back(slotOf(property));
-        if (slots.back() >= 0) have |= 1U << static_cast<unsigned>(slots.back());
-    }
-    if ((have & 7U) != 7U) values.fail("mesh.format", "the PLY vertices have no x, y and z");
-    const bool normals = (have & 0x38U) == 0x38U, uvs = (have & 0xC0U) == 0xC0U;
+void readVertices(Values& values, const PlyElement& element, RawMesh& mesh) {
+    const Slots slots(element);
+    if ((slots.have & kPlaceBits) != kPlaceBits)
+        values.fail("mesh.format", element, "the PLY vertices have no x, y and z");
+    const bool normals = (slots.have & kNormalBits) == kNormalBits;
+    const bool uvs = (slots.have & kUvBits) == kUvBits;
     for (std::size_t i = 0; i < element.count; ++i) {
-        std::array<float, 8> v{};
-        for (std::size_t k = 0; k < slots.size(); ++k) {
+        std::array<double, kSlots> v{};
+        for (std::size_t k = 0; k < slots.of.size(); ++k) {
             const PlyProperty& property = element.properties[k];
             std::size_t length = property.list ? listLength(values, property) : 1;
             for (; length > 0; --length) {
                 const double value = values.next(property.type);
-                if (slots[k] < 0) continue;
-                if (std::abs(value) > kMaxCoordinate)
-                    values.fail("mesh.number", "a number is beyond 1e18");
-                v[static_cast<std::size_t>(slots[k])] = static_cast<float>(value);
+                if (slots.of[k] < 0) continue;
+                if (std::abs(value) > kMaxCoordinate || (slots.of[k] < 3 && std::isnan(value)))
+                    values.fail("mesh.number", "a number is not finite or beyond 1e18");
+                v[static_cast<std::size_t>(slots.of[k])] = value;
             }
         }
         mesh.positions.emplace_back(v[0], v[1], v[2]);
-        if (normals) mesh.normals.emplace_back(v[3], v[4], v[5]);
+        if (normals) mesh.normals.push_back(vec3At(&v[3]));
         if (uvs) mesh.uvs.emplace_back(v[6], v[7]);
+        if (slots.hasColor()) mesh.colors.push_back(slots.color(v));
     }
 }
 
-void readFaces(Values& values, const PlyElement& element, Mesh& mesh, const std::string& file) {
-    std::vector<std::uint32_t> face;
-    std::vector<glm::vec3> places;
-    std::vector<FaceTriangle> triangles;
-    for (std::size_t i = 0; i < element.count; ++i) {
-        for (const PlyProperty& property : element.properties) {
-            std::size_t length = property.list ? listLength(values, property) : 1;
-            const bool corners = property.list && (property.name == "vertex_indices" ||
-                                                   property.name == "vertex_index");
-            if (corners && length < 3) values.fail("mesh.syntax", "a face needs three corners");
-            face.clear();
-            places.clear();
-            for (std::size_t k = 0; k < length; ++k) {
-                const double value = values.next(property.type);
-                if (!corners) continue;
-                if (!isCount(value) || value >= static_cast<double>(mesh.positions.size()))
-                    values.fail("mesh.index", "a face's index is out of range: there are " +
-                                                  std::to_string(mesh.positions.size()) +
-                                                  " vertices");
-                const auto at = static_cast<std::uint32_t>(value);
-                face.push_back(at);
-                places.push_back(mesh.positions[at]);
-                if (k >= 2) checkTriangles(mesh.triangles() + k - 1, file);
+/// The faces of a PLY, and its triangle strips.
+class FaceReader {
+  public:
+    FaceReader(Values& values, RawMesh& mesh, const std::string& file)
+        : values_(values), mesh_(mesh), file_(file) {}
+
+    void readFaces(const PlyElement& element) {
+        const std::vector<PlyProperty> properties = propertiesOf(element);
+        const PlyElement known{element.name, element.count, properties, element.line};
+        const Slots slots(known);
+        for (std::size_t i = 0; i < element.count; ++i) {
+            std::array<double, kSlots> v{};
+            const std::size_t before = mesh_.triangles();
+            for (std::size_t k = 0; k < properties.size(); ++k) {
+                const PlyProperty& property = properties[k];
+                if (isCornerList(property)) {
+                    if (readCorners(property)) addFace();
+                    continue;
+                }
+                std::size_t length = property.list ? listLength(values_, property) : 1;
+                for (; length > 0; --length) {
+                    const double value = values_.next(property.type);
+                    if (slots.of[k] >= 0) v[static_cast<std::size_t>(slots.of[k])] = value;
+                }
             }
-            if (!corners) continue;
-            triangulate(places, triangles);
-            for (const auto& [a, b, c] : triangles)
-                mesh.indices.insert(mesh.indices.end(), {face[a], face[b], face[c]});
+            if (slots.hasColor())
+                colors_.resize(colors_.size() + mesh_.triangles() - before, slots.color(v));
         }
     }
+
+    /// Runs of corners of which every three in a row are a triangle; -1 ends a run.
+    void readStrips(const PlyElement& element) {
+        for (std::size_t i = 0; i < element.count; ++i)
+            for (const PlyProperty& property : element.properties) {
+                std::size_t length = property.list ? listLength(values_, property) : 1;
+                std::size_t run = 0;
+                std::array<std::uint32_t, 2> last{};
+                for (; length > 0; --length) {
+                    const double value = values_.next(property.type);
+                    if (!isCornerList(property)) continue;
+                    if (value == -1.0 || !isCorner(value)) {
+                        if (value != -1.0) lose("corners of strips out of range");
+                        run = 0;
+                        continue;
+                    }
+                    const auto corner = static_cast<std::uint32_t>(value);
+                    if (run >= 2) addTriangle(run % 2 == 0, last[0], last[1], corner);
+                    last = {last[1], corner};
+                    ++run;
+                }
+            }
+    }
+
+    /// Throws what was wrong with the first face that was lost, where no face is left.
+    void finish() {
+        if (mesh_.indices.empty() && problem_) throw Error(Diagnostics{*problem_});
+        if (colors_.size() == mesh_.triangles() && !colors_.empty()) splitByColor(mesh_, colors_);
+    }
+
+  private:
+    /// Exporters of students' own write faces without the line that describes them: the usual one
+    /// is assumed where there is none at all.
+    std::vector<PlyProperty> propertiesOf(const PlyElement& element) {
+        std::vector<PlyProperty> properties = element.properties;
+        if (element.count > 0 && properties.empty()) {
+            PlyProperty corners;
+            corners.name = "vertex_indices";
+            corners.type = PlyType::int32;
+            corners.list = true;
+            properties.push_back(corners);
+            mesh_.findings.push_back(
+                diagnosticOf(Severity::warning, message<"mesh.assumed">(), {file_, 0, 0}));
+        }
+        const auto lists = std::count_if(properties.begin(), properties.end(), isCornerList);
+        if (element.count > 0 && lists != 1)
+            values_.fail("mesh.format", element,
+                         "the PLY faces have " + std::to_string(lists) +
+                             " lists of corners; expected one, \"vertex_indices\"");
+        return properties;
+    }
+
+    bool isCorner(double value) const {
+        return isCount(value) && value < static_cast<double>(mesh_.positions.size());
+    }
+
+    /// Notes what is wrong at the number read last.
+    void lose(const char* what, const char* code = "mesh.index") {
+        ++mesh_.leftOut[what];
+        if (problem_) return;
+        try {
+            values_.fail(code, code == std::string_view("mesh.syntax")
+                                   ? "a face needs three corners"
+                                   : "a face's index is out of range: there are " +
+                                         std::to_string(mesh_.positions.size()) + " vertices");
+        } catch (const Error& error) {
+            problem_ = error.primary();
+        }
+    }
+
+    /// Reads the corners of a face; false where it cannot be drawn.
+    bool readCorners(const PlyProperty& property) {
+        const std::size_t length = listLength(values_, property);
+        face_.clear();
+        bool inRange = true;
+        for (std::size_t k = 0; k < length; ++k) {
+            const double value = values_.next(property.type);
+            if (!inRange) continue;
+            inRange = isCorner(value);
+            if (!inRange) {
+                lose("faces with an index out of range");
+                continue;
+            }
+            face_.push_back(static_cast<std::uint32_t>(value));
+            if (k >= 2) checkTriangles(mesh_.triangles() + k - 1, file_);
+        }
+        if (inRange && length < 3) lose("faces of less than three corners", "mesh.syntax");
+        return inRange && length >= 3;
+    }
+
+    void addFace() {
+        places_.clear();
+        for (const std::uint32_t corner : face_) places_.push_back(mesh_.positions[corner]);
+        triangulate(places_, triangles_);
+        for (const auto& [a, b, c] : triangles_)
+            mesh_.indices.insert(mesh_.indices.end(), {face_[a], face_[b], face_[c]});
+    }
+
+    void addTriangle(bool even, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+        if (a == b || b == c || c == a) return;  // joins two strips
+        checkTriangles(mesh_.triangles() + 1, file_);
+        if (!even) std::swap(a, b);
+        mesh_.indices.insert(mesh_.indices.end(), {a, b, c});
+    }
+
+    Values& values_;
+    RawMesh& mesh_;
+    const std::string& file_;
+    std::vector<std::uint32_t> face_;
+    std::vector<glm::dvec3> places_;
+    std::vector<FaceTriangle> triangles_;
+    std::vector<glm::u8vec4> colors_;  ///< of triangles
+    std::optional<Diagnostic> problem_;
+};
+
+/// Profiles carry a face for programs that refuse a PLY file without any: they have places alone,
+/// all points are in z = 0, and two of them or more are corners of no face.
+bool isProfileWithDummy(const RawMesh& mesh) {
+    if (!mesh.normals.empty() || !mesh.uvs.empty() || !mesh.colors.empty()) return false;
+    std::vector<bool> used(mesh.positions.size());
+    for (const std::uint32_t index : mesh.indices) used[index] = true;
+    const auto count = static_cast<std::size_t>(std::count(used.begin(), used.end(), true));
+    return mesh.triangles() <= 2 && mesh.positions.size() >= 4 &&
+           count + 2 <= mesh.positions.size() &&
+           std::all_of(mesh.positions.begin(), mesh.positions.end(),
+                       [](const glm::dvec3& p) { return p.z == 0.0; });
 }
 
 void skip(Values& values, const PlyElement& element) {
@@ -191,29 +358,32 @@ void skip(Values& values, const PlyElement& element) {
 std::string encodePly(const Mesh& mesh) {
     Writer out;
     out.text("ply\nformat ascii 1.0\nelement vertex ");
-    out.number(mesh.positions.size());
-    out.text("\nproperty float x\nproperty float y\nproperty float z\n");
-    if (!mesh.normals.empty())
+    out.number(mesh.positions().size());
+    out.text(mesh.origin() == glm::dvec3(0.0)
+                 ? "\nproperty float x\nproperty float y\nproperty float z\n"
+                 : "\nproperty double x\nproperty double y\nproperty double z\n");
+    if (!mesh.normals().empty())
         out.text("property float nx\nproperty float ny\nproperty float nz\n");
-    if (!mesh.uvs.empty()) out.text("property float u\nproperty float v\n");
+    if (!mesh.uvs().empty()) out.text("property float u\nproperty float v\n");
+    if (!mesh.colors().empty())
+        out.text("property uchar red\nproperty uchar green\nproperty uchar blue\n");
     out.text("element face ");
     out.number(mesh.triangles());
     out.text("\nproperty list uchar uint vertex_indices\nend_header\n");
-    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-        const auto add = [&out, first = true](float value) mutable {
-            if (!first) out.text(" ");
+    for (std::size_t i = 0; i < mesh.positions().size(); ++i) {
+        const auto add = [&out](auto value) {
+            out.text(" ");
             out.number(value);
-            first = false;
         };
-        auto put = add;
-        for (int k = 0; k < 3; ++k) put(mesh.positions[i][k]);
-        for (int k = 0; k < 3 && !mesh.normals.empty(); ++k) put(mesh.normals[i][k]);
-        for (int k = 0; k < 2 && !mesh.uvs.empty(); ++k) put(mesh.uvs[i][k]);
+        out.place(mesh, i);
+        for (int k = 0; k < 3 && !mesh.normals().empty(); ++k) add(mesh.normals()[i][k]);
+        for (int k = 0; k < 2 && !mesh.uvs().empty(); ++k) add(mesh.uvs()[i][k]);
+        for (int k = 0; k < 3 && !mesh.colors().empty(); ++k) add(mesh.colors()[i][k]);
         out.text("\n");
     }
-    for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
+    for (std::size_t i = 0; i < mesh.indices().size(); ++i) {
         out.text(i % 3 == 0 ? "3 " : " ");
-        out.number(mesh.indices[i]);
+        out.number(mesh.indices()[i]);
         if (i % 3 == 2) out.text("\n");
     }
     return out.take();
@@ -223,22 +393,32 @@ bool looksLikePly(std::string_view bytes) {
     return bytes.substr(0, 4) == "ply\n" || bytes.substr(0, 5) == "ply\r\n";
 }
 
-Mesh decodePly(std::string_view bytes, const std::string& fileName, bool facesNeeded) {
+RawMesh decodePly(std::string_view bytes, const std::string& fileName, bool facesNeeded) {
     const PlyHeader header = parsePlyHeader(bytes, fileName);
     Values values(bytes, header, fileName);
-    Mesh mesh;
+    RawMesh mesh;
+    FaceReader faces(values, mesh, fileName);
     for (const PlyElement& element : header.elements) {
-        if (element.name == "vertex")
+        if (element.name == "vertex") {
             readVertices(values, element, mesh);
-        else if (element.name == "face")
-            readFaces(values, element, mesh, fileName);
-        else
+        } else if (element.name == "face") {
+            faces.readFaces(element);
+        } else if (element.name == "tristrips") {
+            faces.readStrips(element);
+        } else {
             skip(values, element);
+            if (element.count > 0)
+                mesh.leftOut["entries of \"" + shown(element.name) + "\""] += element.count;
+        }
     }
     if (mesh.positions.empty()) values.fail("mesh.empty", "the PLY file holds no vertices");
-    if (facesNeeded && mesh.indices.empty())
+    if (!facesNeeded) return mesh;
+    if (mesh.indices.empty() || isProfileWithDummy(mesh)) {
+        faces.finish();
         values.fail("mesh.empty",
                     "the PLY file holds no faces: a profile is revolved with \"revolve\"");
+    }
+    faces.finish();
     return mesh;
 }
 

@@ -1,9 +1,12 @@
 #include "generator/io/ply_header.h"
 
+#include <algorithm>
 #include <array>
-#include <charconv>
 
-#include "scene/error.h"
+#include "core/error.h"
+#include "core/number.h"
+#include "core/text.h"
+#include "generator/mesh.h"
 
 namespace farol::generator::io {
 namespace {
@@ -48,7 +51,7 @@ class HeaderReader {
         }
         if (!formatted) fail("mesh.syntax", "the PLY header names no format");
         header_.bytes = at;
-        checkCounts();
+        checkElementCounts();
         return header_;
     }
 
@@ -73,14 +76,11 @@ class HeaderReader {
 
     void readElement(const std::vector<std::string>& words) {
         constexpr std::size_t kMaxElements = 32;
-        std::uint64_t count = 0;
-        const std::string number = words.size() == 3 ? words[2] : "";
-        const auto [stop, failed] =
-            std::from_chars(number.data(), number.data() + number.size(), count);
-        if (number.empty() || failed != std::errc() || stop != number.data() + number.size())
-            fail("mesh.syntax", "expected: element NAME COUNT");
+        const auto count = words.size() == 3 ? parseExact<std::uint64_t>(words[2]) : std::nullopt;
+        if (!count) fail("mesh.syntax", "expected: element NAME COUNT");
         if (header_.elements.size() == kMaxElements) fail("mesh.count", "too many PLY elements");
-        header_.elements.push_back({words[1], static_cast<std::size_t>(count), {}});
+        refuseSecond(header_.elements, words[1], "element");
+        header_.elements.push_back({words[1], static_cast<std::size_t>(*count), {}, header_.lines});
     }
 
     void readProperty(const std::vector<std::string>& words) {
@@ -93,12 +93,22 @@ class HeaderReader {
             fail("mesh.syntax", "expected: property TYPE NAME, or property list TYPE TYPE NAME");
         PlyProperty property;
         property.name = words.back();
+        refuseSecond(properties, property.name, "property");
         property.list = list;
         property.type = typeOf(words[list ? 3 : 1]);
         if (list) property.lengthType = typeOf(words[2]);
         if (list && property.lengthType >= PlyType::float32)
             fail("mesh.syntax", "a PLY list's length must be of a whole type");
         properties.push_back(property);
+    }
+
+    template <class Named>
+    void refuseSecond(const std::vector<Named>& list, const std::string& name,
+                      const char* kind) const {
+        const auto same = [&name](const Named& one) { return one.name == name; };
+        if (std::any_of(list.begin(), list.end(), same))
+            fail("mesh.syntax", "a second " + std::string(kind) + " " + farol::quoted(name) +
+                                    " in the PLY header; expected one of each name");
     }
 
     PlyType typeOf(const std::string& name) const {
@@ -115,7 +125,7 @@ class HeaderReader {
         fail("mesh.syntax", "unknown PLY type");
     }
 
-    void checkCounts() const {
+    void checkElementCounts() const {
         const std::size_t left = bytes_.size() - header_.bytes;
         for (const PlyElement& element : header_.elements) {
             const std::size_t least = element.leastBytes(header_.encoding);
@@ -125,6 +135,7 @@ class HeaderReader {
                                        element.name.substr(0, 40) + ", more than the file holds");
             if (least == 0 && element.count > left)
                 fail("mesh.count", "the PLY header names an absurd count");
+            if (element.name == "vertex") checkCounts(element.count, 0, file_);
         }
     }
 

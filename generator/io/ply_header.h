@@ -22,6 +22,7 @@ struct PlyElement {
     std::string name;
     std::size_t count = 0;
     std::vector<PlyProperty> properties;
+    int line = 0;  ///< of the header, from 1
     /// The fewest bytes that one of it takes in the file.
     std::size_t leastBytes(PlyEncoding encoding) const;
 };
@@ -33,8 +34,9 @@ struct PlyHeader {
     int lines = 0;
 };
 
-/// Reads "ply ... end_header". Throws Error mesh.syntax, mesh.truncated; mesh.count where an
-/// element's count cannot fit into the bytes that follow.
+/// Reads "ply ... end_header". No two elements, and no two properties of an element, have the same
+/// name. Throws Error mesh.syntax, mesh.truncated; mesh.count where an element's count cannot fit
+/// into the bytes that follow; limit.triangles for too many vertices.
 PlyHeader parsePlyHeader(std::string_view bytes, const std::string& fileName);
 
 }  // namespace farol::generator::io

@@ -5,17 +5,14 @@
 #include <deque>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
+#include <optional>
+
+#include "generator/io/corner_tree.h"
 
 namespace farol::generator::io {
 namespace {
 
 using Point = glm::dvec2;
-
-/// Twice the area of a, b, c: positive where they turn left, 0 where they lie in one line.
-/// Differences of floats are exact in double unless they are of very different size.
-double turn(const Point& a, const Point& b, const Point& c) {
-    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-}
 
 /// The face seen along the axis that its area is largest for, turning left; empty without area.
 /// Leaving a coordinate out, instead of turning the plane, keeps straight lines straight.
@@ -41,7 +38,7 @@ bool fanCovers(const std::vector<Point>& flat) {
 }
 
 /// Cuts off one ear after the other: a corner whose triangle holds none of the others. Only
-/// corners that do not turn left can be in the way; they are kept in a grid, so that a face of
+/// corners that do not turn left can be in the way; they are kept in a tree, so that a face of
 /// many corners does not take the square of their number.
 class Clipper {
   public:
@@ -51,15 +48,15 @@ class Clipper {
           left_(flat.size()),
           previous_(left_),
           next_(left_),
-          blocks_(left_),
           queued_(left_, false),
-          gone_(left_, false) {
+          gone_(left_, false),
+          blocks_(left_) {
         for (std::size_t i = 0; i < left_; ++i) {
             previous_[i] = i == 0 ? left_ - 1 : i - 1;
             next_[i] = i + 1 == left_ ? 0 : i + 1;
         }
         for (std::size_t i = 0; i < left_; ++i) blocks_[i] = turnAt(i) <= 0;
-        fillGrid();
+        blockers_.emplace(flat_, blocks_);
     }
 
     void run() {
@@ -110,12 +107,17 @@ class Clipper {
         next_[before] = after;
         previous_[after] = before;
         gone_[at] = true;
-        blocks_[at] = false;
+        unblock(at);
         --left_;
         for (const std::size_t near : {before, after}) {
-            blocks_[near] = blocks_[near] && turnAt(near) <= 0;
+            if (turnAt(near) > 0) unblock(near);
             enqueue(near);
         }
+    }
+
+    void unblock(std::size_t at) {
+        if (blocks_[at]) blockers_->remove(at);
+        blocks_[at] = false;
     }
 
     bool isEar(std::size_t at) const {
@@ -124,67 +126,20 @@ class Clipper {
         const double area = turn(a, b, c);
         if (ears_ == Ears::needles || area < 0 || (ears_ == Ears::proper && area == 0))
             return false;
-        const auto [x0, x1] = std::minmax({a.x, b.x, c.x});
-        const auto [y0, y1] = std::minmax({a.y, b.y, c.y});
-        if (heads_.empty()) return true;
-        const std::size_t column0 = cellOf(x0, low_.x, cell_.x),
-                          column1 = cellOf(x1, low_.x, cell_.x);
-        const std::size_t row0 = cellOf(y0, low_.y, cell_.y), row1 = cellOf(y1, low_.y, cell_.y);
-        for (std::size_t row = row0; row <= row1; ++row)
-            for (std::size_t column = column0; column <= column1; ++column)
-                for (std::size_t i = heads_[row * side_ + column]; i != kNone; i = chain_[i])
-                    if (blocks_[i] && inTheWay(flat_[i], a, b, c)) return false;
-        return true;
+        // Strictly inside a triangle without area there is nothing.
+        if (area == 0) return true;
+        // On the edge counts at first, so that no edge of a triangle passes through a corner.
+        return !blockers_->anyIn({a, b, c, ears_ == Ears::proper});
     }
-
-    /// On the edge counts, so that no edge of a triangle passes through a corner. The same place
-    /// as a corner does not: faces with holes go through some corners twice.
-    bool inTheWay(const Point& p, const Point& a, const Point& b, const Point& c) const {
-        if (p == a || p == b || p == c) return false;
-        const double least = std::min({turn(a, b, p), turn(b, c, p), turn(c, a, p)});
-        return ears_ == Ears::proper ? least >= 0 : least > 0;
-    }
-
-    void fillGrid() {
-        const auto count =
-            static_cast<std::size_t>(std::count(blocks_.begin(), blocks_.end(), true));
-        if (count == 0) return;
-        constexpr std::size_t kMostCells = 1024;
-        side_ = std::min(
-            kMostCells, static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(count)))));
-        Point high = low_ = flat_[0];
-        for (const Point& p : flat_) {
-            low_ = glm::min(low_, p);
-            high = glm::max(high, p);
-        }
-        cell_ = (high - low_) / static_cast<double>(side_);
-        heads_.assign(side_ * side_, kNone);
-        chain_.assign(flat_.size(), kNone);
-        for (std::size_t i = 0; i < flat_.size(); ++i) {
-            if (!blocks_[i]) continue;
-            std::size_t& head = heads_[cellOf(flat_[i].y, low_.y, cell_.y) * side_ +
-                                       cellOf(flat_[i].x, low_.x, cell_.x)];
-            chain_[i] = head;
-            head = i;
-        }
-    }
-
-    std::size_t cellOf(double at, double low, double cell) const {
-        return std::min(side_ - 1, static_cast<std::size_t>((at - low) / cell));
-    }
-
-    static constexpr std::size_t kNone = ~std::size_t{0};
 
     const std::vector<Point>& flat_;
     std::vector<FaceTriangle>& out_;
     std::size_t left_;
     std::vector<std::size_t> previous_, next_;
-    std::vector<bool> blocks_, queued_, gone_;
+    std::vector<bool> queued_, gone_, blocks_;
+    std::optional<CornerTree> blockers_;  ///< the corners of blocks_
     std::deque<std::size_t> queue_;
     Ears ears_ = Ears::needles;
-    std::size_t side_ = 0;
-    Point low_{0}, cell_{0};
-    std::vector<std::size_t> heads_, chain_;
 };
 
 }  // namespace
@@ -194,6 +149,24 @@ void triangulate(const std::vector<glm::vec3>& corners, std::vector<FaceTriangle
     const std::vector<Point> flat = corners.size() > 3 ? flatten(corners) : std::vector<Point>();
     if (!flat.empty() && !fanCovers(flat)) return Clipper(flat, out).run();
     for (std::uint32_t k = 2; k < corners.size(); ++k) out.push_back({0, k - 1, k});
+}
+
+void triangulate(const std::vector<glm::dvec3>& corners, std::vector<FaceTriangle>& out) {
+    if (corners.size() == 3) {  // nothing to choose
+        out.assign(1, {0, 1, 2});
+        return;
+    }
+    constexpr double kFar = 1024.0;  // sizes of the face
+    glm::dvec3 reach(0.0);
+    for (const glm::dvec3& corner : corners) reach = glm::max(reach, glm::abs(corner - corners[0]));
+    const glm::dvec3 size = glm::abs(corners[0]);
+    const bool far =
+        std::max({size.x, size.y, size.z}) > kFar * std::max({reach.x, reach.y, reach.z});
+    const glm::dvec3 origin = far ? corners[0] : glm::dvec3(0.0);
+    std::vector<glm::vec3> near;
+    near.reserve(corners.size());
+    for (const glm::dvec3& corner : corners) near.emplace_back(corner - origin);
+    triangulate(near, out);
 }
 
 }  // namespace farol::generator::io

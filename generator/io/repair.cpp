@@ -4,7 +4,8 @@
 #include <cmath>
 #include <cstring>
 #include <numeric>
-#include <unordered_map>
+
+#include "generator/io/raw_mesh.h"
 
 namespace farol::generator::io {
 namespace {
@@ -33,15 +34,8 @@ dvec3 faceNormal(const std::vector<glm::vec3>& p, const std::uint32_t* corner) {
     return glm::cross(dvec3(p[corner[1]]) - a, dvec3(p[corner[2]]) - a);
 }
 
-void warn(Diagnostics& findings, const char* code, const std::string& file,
-          const std::string& message) {
-    Location where;
-    where.file = file;
-    findings.push_back({Severity::warning, code, std::move(where), message, ""});
-}
-
 /// Replaces what is no direction and normalises the rest; returns how many were replaced.
-std::size_t mendNormals(Mesh& mesh) {
+std::size_t replaceNormals(MeshArrays& mesh, const std::vector<std::uint32_t>& smooth) {
     // Files with six digits give lengths that are off by 1e-6: those stay as they are.
     constexpr double kTolerance = 1e-5;
     std::size_t replaced = 0;
@@ -53,14 +47,14 @@ std::size_t mendNormals(Mesh& mesh) {
                 mesh.normals[i] = glm::vec3(dvec3(mesh.normals[i]) / std::sqrt(squared));
             continue;
         }
-        if (computed.empty()) computed = vertexNormals(mesh.positions, mesh.indices);
+        if (computed.empty()) computed = vertexNormals(mesh.positions, mesh.indices, smooth);
         mesh.normals[i] = computed[i];
         ++replaced;
     }
     return replaced;
 }
 
-bool hasArea(const Mesh& mesh) {
+bool hasArea(const MeshArrays& mesh) {
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
         if (faceNormal(mesh.positions, &mesh.indices[i]) != dvec3(0)) return true;
     return false;
@@ -69,17 +63,20 @@ bool hasArea(const Mesh& mesh) {
 }  // namespace
 
 std::vector<glm::vec3> vertexNormals(const std::vector<glm::vec3>& positions,
-                                     const std::vector<std::uint32_t>& indices) {
+                                     const std::vector<std::uint32_t>& indices,
+                                     const std::vector<std::uint32_t>& smooth) {
     std::vector<dvec3> sums(positions.size(), dvec3(0));
+    const auto groupOf = [&smooth](std::uint32_t i) { return smooth.empty() ? i : smooth[i]; };
     for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
         const dvec3 normal = faceNormal(positions, &indices[i]);
         const double length = glm::length(normal);
         if (!(length > 0)) continue;
-        for (std::size_t k = 0; k < 3; ++k) sums[indices[i + k]] += normal / length;
+        for (std::size_t k = 0; k < 3; ++k) sums[groupOf(indices[i + k])] += normal / length;
     }
     std::vector<glm::vec3> normals;
     normals.reserve(sums.size());
-    for (const dvec3& sum : sums) {
+    for (std::uint32_t i = 0; i < sums.size(); ++i) {
+        const dvec3& sum = sums[groupOf(i)];
         const double length = glm::length(sum);
         // Opposite faces cancel up to rounding: no direction is better than another then.
         normals.emplace_back(length > 1e-9 ? glm::vec3(sum / length) : glm::vec3(0, 1, 0));
@@ -87,7 +84,7 @@ std::vector<glm::vec3> vertexNormals(const std::vector<glm::vec3>& positions,
     return normals;
 }
 
-double signedVolume(const Mesh& mesh) {
+double signedVolume(const MeshArrays& mesh) {
     double volume = 0;
     const auto& p = mesh.positions;
     if (p.empty()) return 0;
@@ -97,24 +94,31 @@ double signedVolume(const Mesh& mesh) {
     return volume;
 }
 
-bool isClosed(const Mesh& mesh) {
+bool isClosed(const MeshArrays& mesh) {
     const std::vector<std::uint32_t> welded = weld(mesh.positions);
-    std::unordered_map<std::uint64_t, std::int32_t> balance;
-    balance.reserve(mesh.indices.size() / 2);
+    // Sorted, not hashed: a file must not choose how many edges share a bucket.
+    std::vector<std::uint64_t> edges;  // lower vertex, higher vertex (31 bits), direction
+    edges.reserve(mesh.indices.size());
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
         const std::uint32_t v[3] = {welded[mesh.indices[i]], welded[mesh.indices[i + 1]],
                                     welded[mesh.indices[i + 2]]};
         if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) continue;
         for (std::size_t k = 0; k < 3; ++k) {
             const std::uint64_t a = v[k], b = v[(k + 1) % 3];
-            balance[std::min(a, b) << 32U | std::max(a, b)] += a < b ? 1 : -1;
+            edges.push_back(std::min(a, b) << 32U | std::max(a, b) << 1U | (a < b ? 1U : 0U));
         }
     }
-    return !balance.empty() && std::all_of(balance.begin(), balance.end(),
-                                           [](const auto& edge) { return edge.second == 0; });
+    std::sort(edges.begin(), edges.end());
+    std::int64_t balance = 0;
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+        if (i > 0 && edges[i] >> 1U != edges[i - 1] >> 1U && balance != 0) return false;
+        balance += (edges[i] & 1U) != 0 ? 1 : -1;
+    }
+    return !edges.empty() && balance == 0;
 }
 
-void repair(Mesh& mesh, const std::string& fileName, Diagnostics& findings) {
+void repair(MeshArrays& mesh, const std::vector<std::uint32_t>& smooth, const std::string& fileName,
+            Diagnostics& findings) {
     const bool given = !mesh.normals.empty();
     if (signedVolume(mesh) < 0 && isClosed(mesh)) {
         for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
@@ -134,14 +138,14 @@ void repair(Mesh& mesh, const std::string& fileName, Diagnostics& findings) {
         warn(findings, "mesh.flat", fileName,
              "no triangle of \"" + fileName + "\" has an area: nothing of it can be seen");
     if (!given) {
-        mesh.normals = vertexNormals(mesh.positions, mesh.indices);
+        mesh.normals = vertexNormals(mesh.positions, mesh.indices, smooth);
         return;
     }
-    const std::size_t replaced = mendNormals(mesh);
+    const std::size_t replaced = replaceNormals(mesh, smooth);
     if (replaced > 0)
         warn(findings, "mesh.normal", fileName,
              std::to_string(replaced) + " normals of \"" + fileName +
-                 "\" are no directions: the faces' own were taken");
+                 "\" have no direction; replaced by those of the faces");
 }
 
 }  // namespace farol::generator::io

@@ -2,8 +2,8 @@
 
 #include <string>
 
+#include "core/error.h"
 #include "generator/mesh.h"
-#include "scene/error.h"
 
 namespace farol::generator::io {
 
@@ -12,17 +12,21 @@ namespace farol::generator::io {
 /// faces without area skipped); zero or NaN normals are replaced by the same; normals of another
 /// length are normalised; a closed mesh whose volume is negative is turned to face outwards; of a
 /// mesh without any area it is told.
-void repair(Mesh& mesh, const std::string& fileName, Diagnostics& findings);
+/// `smooth`: RawMesh::smooth. Precondition: checkStructure; `smooth` is empty or as long as the
+/// positions, each number below that length.
+void repair(MeshArrays& mesh, const std::vector<std::uint32_t>& smooth, const std::string& fileName,
+            Diagnostics& findings);
 
 /// The sums described above, one a vertex; +Y for a vertex without a face that has an area.
 std::vector<glm::vec3> vertexNormals(const std::vector<glm::vec3>& positions,
-                                     const std::vector<std::uint32_t>& indices);
+                                     const std::vector<std::uint32_t>& indices,
+                                     const std::vector<std::uint32_t>& smooth = {});
 
 /// True when, with equal positions taken as one vertex, every edge is used as often in one
 /// direction as in the other. Triangles that then have two equal corners do not count.
-bool isClosed(const Mesh& mesh);
+bool isClosed(const MeshArrays& mesh);
 
 /// The volume by the divergence theorem: positive for a closed mesh that faces outwards.
-double signedVolume(const Mesh& mesh);
+double signedVolume(const MeshArrays& mesh);
 
 }  // namespace farol::generator::io

@@ -1,32 +1,49 @@
 #include "generator/io/rows.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
+
+#include "core/text.h"
 
 namespace farol::generator::io {
 namespace {
 
+bool isWordChar(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+
+/// NaN and infinity as C libraries write them: nan, -nan(ind), inf, 1.#QNAN, -1.#IND00.
+bool isNoNumber(std::string_view token) {
+    if (!token.empty() && (token[0] == '-' || token[0] == '+')) token.remove_prefix(1);
+    std::string lower;
+    for (const char c : token.substr(0, 12))
+        lower += static_cast<char>(isWordChar(c) ? c | 0x20 : c);
+    for (const char* known : {"nan", "nan(ind", "nan(ind)", "nan(snan", "nan(snan)", "inf",
+                              "infinity", "1.#inf", "1.#ind", "1.#qnan", "1.#snan"})
+        if (lower == known) return true;
+    // Printed with digits: 1.#INF00, -1.#IND000.
+    return lower.rfind("1.#inf0", 0) == 0 || lower.rfind("1.#ind0", 0) == 0 ||
+           lower.rfind("1.#qnan0", 0) == 0;
+}
+
+}  // namespace
+
 bool isSeparator(char c) {
-    return c == ' ' || c == '\t' || c == ',' || c == ';' || c == '\r' || c == '\v' || c == '\f';
+    return c == ' ' || c == '\t' || c == ',' || c == ';' || c == '\r' || c == '\v' || c == '\f' ||
+           c == '(' || c == ')' || c == '[' || c == ']' || c == '{' || c == '}' || c == '|';
 }
 
-/// A token as a message may show it: short, and without control characters.
-std::string shown(std::string_view token) {
-    std::string text(token.substr(0, 24));
-    for (char& c : text)
-        if (static_cast<unsigned char>(c) < 0x20 || static_cast<unsigned char>(c) > 0x7E) c = '?';
-    return "\"" + text + "\"";
-}
-
-double parseToken(std::string_view token, const Location& where) {
+std::optional<double> numberOf(std::string_view token, const Location& where) {
     const char* begin = token.data();
     const char* end = begin + token.size();
     if (token.size() > 1 && *begin == '+' && begin[1] != '-') ++begin;
     double value = 0;
     auto [stop, failed] = std::from_chars(begin, end, value);
     if (stop != end && stop + 1 == end && (*stop == 'f' || *stop == 'F')) ++stop;
-    if (stop != end || failed == std::errc::invalid_argument)
-        throw Error("mesh.syntax", shown(token) + " is not a number", where);
+    const bool whole = stop == end && failed != std::errc::invalid_argument;
+    if (!whole || std::isnan(value) || (failed == std::errc() && std::isinf(value))) {
+        if (isNoNumber(token)) return std::nan("");
+        return std::nullopt;
+    }
     if (failed == std::errc::result_out_of_range) {
         // Too small reads as zero; too large is refused below.
         const std::string text(token);
@@ -34,12 +51,29 @@ double parseToken(std::string_view token, const Location& where) {
                            text.find("E-") != std::string::npos || text.find("0.0") == 0;
         value = small ? 0.0 : HUGE_VAL;
     }
-    if (!std::isfinite(value) || std::abs(value) > kMaxCoordinate)
-        throw Error("mesh.number", shown(token) + " is not a finite number within 1e18", where);
+    if (std::abs(value) > kMaxCoordinate)
+        throw Error("mesh.number", quoted(token) + " is too large; expected numbers within 1e18",
+                    where);
     return value;
 }
 
-}  // namespace
+glm::dvec3 placeAt(const NumberRows& rows, const Row& row, const double* v) {
+    const glm::dvec3 place(v[0], v[1], v[2]);
+    if (std::isnan(v[0] + v[1] + v[2]))
+        rows.refuse("mesh.number", row, "a coordinate is NaN or infinite; expected a number");
+    return place;
+}
+
+std::size_t tokenEnd(std::string_view text, std::size_t at) {
+    std::size_t stop = at;
+    while (stop < text.size() && !isSeparator(text[stop])) ++stop;
+    // "nan(ind)" is one token.
+    const bool nan = stop - at >= 3 && stop < text.size() && text[stop] == '(' &&
+                     isNoNumber(text.substr(stop - 3, 3));
+    constexpr std::size_t kLongest = 6;  // "(snan)"
+    const std::size_t close = nan ? text.substr(stop, kLongest).find(')') : std::string_view::npos;
+    return close != std::string_view::npos ? stop + close + 1 : stop;
+}
 
 void NumberRows::refuse(const char* code, const Row& row, const std::string& message) const {
     throw Error(code, message, {file, row.line, 1});
@@ -66,10 +100,13 @@ NumberRows parseRows(std::string_view bytes, const std::string& file, int line, 
                 ++at;
                 continue;
             }
-            std::size_t stop = at;
-            while (stop < text.size() && !isSeparator(text[stop])) ++stop;
-            out.values.push_back(parseToken(text.substr(at, stop - at),
-                                            {file, line, static_cast<int>(at) + column}));
+            const std::size_t stop = tokenEnd(text, at);
+            const Location where{file, line, static_cast<int>(at) + column};
+            const std::optional<double> value = numberOf(text.substr(at, stop - at), where);
+            if (!value)
+                throw Error("mesh.syntax", quoted(text.substr(at, stop - at)) + " is not a number",
+                            where);
+            out.values.push_back(*value);
             at = stop;
         }
         const auto count = static_cast<std::uint32_t>(out.values.size()) - first;
@@ -84,6 +121,12 @@ NumberRows parseRows(std::string_view bytes, const std::string& file, int line, 
     if (out.rows.empty())
         throw Error("mesh.empty", "the mesh file holds no numbers", {file, firstLine, firstColumn});
     return out;
+}
+
+double indexBase(const double* begin, const double* end, std::size_t size) {
+    if (begin == end) return 0.0;
+    const auto [least, most] = std::minmax_element(begin, end);
+    return *least >= 1.0 && *most == static_cast<double>(size) ? 1.0 : 0.0;
 }
 
 bool isCount(double value) { return value >= 0 && value == std::floor(value); }

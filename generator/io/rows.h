@@ -1,11 +1,14 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/vec3.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "scene/error.h"
+#include "core/error.h"
+#include "generator/mesh.h"
 
 /// Text of numbers, read once into rows: what all home-made mesh formats have in common.
 namespace farol::generator::io {
@@ -28,17 +31,29 @@ struct NumberRows {
     [[noreturn]] void refuse(const char* code, const Row& row, const std::string& message) const;
 };
 
-/// Coordinates beyond this have no use and would overflow when squared in float.
-inline constexpr double kMaxCoordinate = 1e18;
-
-/// Splits `bytes` into rows of numbers parted by blanks, commas or semicolons; `#` and `//` begin
-/// comments. Throws Error mesh.syntax for anything else, mesh.number for NaN, Inf and numbers over
-/// kMaxCoordinate, mesh.empty where there is no number. `bytes` begin at that line and column of
-/// the file.
+/// Splits `bytes` into rows of numbers parted by blanks, commas, semicolons or brackets; `#` and
+/// `//` begin comments. "nan" of any spelling, infinities and "1.#QNAN" are NaN: the readers decide
+/// whether the number matters. Throws Error mesh.syntax for anything else, mesh.number for numbers
+/// over kMaxCoordinate, mesh.empty where there is no number. `bytes` begin at that line and column
+/// of the file.
 NumberRows parseRows(std::string_view bytes, const std::string& file, int line = 1, int column = 1);
+
+/// A number as parseRows reads it; nothing where the token is none. Throws mesh.number.
+std::optional<double> numberOf(std::string_view token, const Location& where);
+
+/// True for blanks, commas, semicolons and brackets.
+bool isSeparator(char c);
+/// Where the token ends that begins at `at`.
+std::size_t tokenEnd(std::string_view text, std::size_t at);
+
+/// The three numbers from `v` on as a place. Throws mesh.number with the row's line for NaN.
+glm::dvec3 placeAt(const NumberRows& rows, const Row& row, const double* v);
 
 /// A number of the file as an index below `size`. Throws mesh.index with the row's line.
 std::uint32_t indexIn(const NumberRows& rows, const Row& row, double value, std::size_t size);
+
+/// What indices of these numbers count from: 1 where none is 0 and the largest is `size`, else 0.
+double indexBase(const double* begin, const double* end, std::size_t size);
 
 /// True for a whole number of at least 0.
 bool isCount(double value);

@@ -1,3 +1,5 @@
+#include <numeric>
+
 #include "generator/io/formats.h"
 
 namespace farol::generator::io {
@@ -9,57 +11,89 @@ struct Section {
     std::uint32_t width;     ///< numbers a row, the same in all
 };
 
-/// The file as counted sections, or nothing where it is something else.
-std::vector<Section> sectionsOf(const NumberRows& rows) {
-    std::vector<Section> out;
-    for (std::size_t at = 0; at < rows.rows.size();) {
+/// The file as counted sections, or nothing where it is something else. A row of three behind them
+/// is one normal for all.
+struct Sections {
+    std::vector<Section> all;
+    bool hasIndices = false;    ///< the last of them
+    std::size_t normalRow = 0;  ///< 0: there is none
+};
+
+/// True where all rows of the section could be indices of `vertices` vertices.
+bool couldBeIndices(const NumberRows& rows, const Section& section, std::size_t vertices) {
+    for (std::size_t i = section.begin; i < section.end; ++i)
+        for (std::uint32_t k = 0; k < section.width; ++k) {
+            const double value = rows.at(rows.rows[i])[k];
+            if (!isCount(value) || value >= static_cast<double>(vertices)) return false;
+        }
+    return true;
+}
+
+Sections sectionsOf(const NumberRows& rows) {
+    Sections out;
+    const std::size_t total = rows.rows.size();
+    for (std::size_t at = 0; at < total;) {
+        if (out.all.size() >= 2 && at + 1 == total && rows.rows[at].count == 3) {
+            out.normalRow = at;
+            break;
+        }
         const double said = *rows.at(rows.rows[at]);
-        const std::size_t left = rows.rows.size() - at - 1;
+        const std::size_t left = total - at - 1;
         if (rows.rows[at].count != 1 || !isCount(said) || left == 0) return {};
         const std::uint32_t width = rows.rows[at + 1].count;
         // Indices may be counted one by one though three stand on a row.
-        const bool three = width == 3 && !out.empty() && said == 3.0 * static_cast<double>(left);
+        const bool three =
+            width == 3 && !out.all.empty() && said == 3.0 * static_cast<double>(left);
         if (said < 1 || (!three && said > static_cast<double>(left))) return {};
         const std::size_t count = three ? left : static_cast<std::size_t>(said);
-        out.push_back({at + 1, at + 1 + count, width});
-        for (std::size_t i = out.back().begin; i < out.back().end; ++i)
+        out.all.push_back({at + 1, at + 1 + count, width});
+        for (std::size_t i = out.all.back().begin; i < out.all.back().end; ++i)
             if (rows.rows[i].count != width) return {};
-        at = out.back().end;
+        at = out.all.back().end;
     }
+    if (out.all.empty()) return out;
+    // Triangles may stand before the positions that they index.
+    if (out.all.size() == 2 && out.all[0].width == 3 && out.all[1].width == 3 &&
+        couldBeIndices(rows, out.all[0], out.all[1].end - out.all[1].begin) &&
+        !couldBeIndices(rows, out.all[1], out.all[0].end - out.all[0].begin))
+        std::swap(out.all[0], out.all[1]);
+    // Lists as long as the positions that cannot be indices: the vertices make triangles in a row.
+    const std::size_t vertices = out.all[0].end - out.all[0].begin;
+    const Section& last = out.all.back();
+    const bool list =
+        last.end - last.begin == vertices &&
+        (last.width == 2 || (last.width == 3 && !couldBeIndices(rows, last, vertices)));
+    out.hasIndices = !list;
     return out;
-}
-
-glm::vec3 vec3At(const double* v) {
-    return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
 }
 
 }  // namespace
 
 bool looksLikeSections(const NumberRows& rows) {
-    const auto sections = sectionsOf(rows);
-    return sections.size() >= 2 && sections.size() <= 4 && sections[0].width == 3;
+    const Sections sections = sectionsOf(rows);
+    return sections.all.size() >= 2 && sections.all.size() <= 4 && sections.all[0].width == 3;
 }
 
-Mesh decodeSections(const NumberRows& rows) {
-    const auto sections = sectionsOf(rows);
-    Mesh mesh;
-    for (std::size_t s = 0; s < sections.size(); ++s) {
-        const Section& section = sections[s];
+RawMesh decodeSections(const NumberRows& rows) {
+    const Sections sections = sectionsOf(rows);
+    RawMesh mesh;
+    for (std::size_t s = 0; s < sections.all.size(); ++s) {
+        const Section& section = sections.all[s];
         const Row& first = rows.rows[section.begin];
-        const bool last = s + 1 == sections.size();
-        if (!last && section.width == 1)
+        const bool indices = s + 1 == sections.all.size() && sections.hasIndices;
+        if (!indices && section.width == 1)
             rows.refuse("mesh.format", first, "the indices are expected in the last section");
-        if (s > 0 && !last && section.end - section.begin != mesh.positions.size())
+        if (s > 0 && !indices && section.end - section.begin != mesh.positions.size())
             rows.refuse("mesh.truncated", first,
                         "this section is not as long as that of the positions");
-        if (s > 0 && !last && section.width != 2 && section.width != 3)
+        if (s > 0 && !indices && section.width != 2 && section.width != 3)
             rows.refuse("mesh.syntax", first, "expected two or three numbers");
         for (std::size_t i = section.begin; i < section.end; ++i) {
             const Row& row = rows.rows[i];
             const double* v = rows.at(row);
             if (s == 0)
-                mesh.positions.push_back(vec3At(v));
-            else if (last)
+                mesh.positions.push_back(placeAt(rows, row, v));
+            else if (indices)
                 for (std::uint32_t k = 0; k < row.count; ++k)
                     mesh.indices.push_back(indexIn(rows, row, v[k], mesh.positions.size()));
             else if (section.width == 3)
@@ -68,9 +102,15 @@ Mesh decodeSections(const NumberRows& rows) {
                 mesh.uvs.emplace_back(v[0], v[1]);
         }
     }
+    if (!sections.hasIndices) {
+        mesh.indices.resize(mesh.positions.size());
+        std::iota(mesh.indices.begin(), mesh.indices.end(), 0U);
+    }
     if (mesh.indices.size() % 3 != 0)
         rows.refuse("mesh.truncated", rows.rows.back(),
                     "the number of indices is not a multiple of three");
+    if (sections.normalRow > 0 && mesh.normals.empty())
+        mesh.normals.assign(mesh.positions.size(), vec3At(rows.at(rows.rows[sections.normalRow])));
     if (mesh.normals.size() > mesh.positions.size() || mesh.uvs.size() > mesh.positions.size())
         rows.refuse("mesh.format", rows.rows[0], "a section is given twice");
     checkTriangles(mesh.indices.size() / 3, rows.file);

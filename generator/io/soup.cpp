@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <numeric>
 
 #include "generator/io/formats.h"
@@ -5,49 +6,54 @@
 namespace farol::generator::io {
 namespace {
 
-glm::vec3 vec3At(const double* v) {
-    return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
-}
+glm::dvec2 vec2At(const double* v) { return {v[0], v[1]}; }
 
-glm::vec2 vec2At(const double* v) { return {static_cast<float>(v[0]), static_cast<float>(v[1])}; }
-
-/// Position, normal and UV on three lines of their own.
-bool isThreeLines(const NumberRows& rows) {
-    for (std::size_t i = 0; i < std::min<std::size_t>(rows.rows.size(), 6); ++i)
-        if (rows.rows[i].count != (i % 3 == 2 ? 2U : 3U)) return false;
-    return rows.rows.size() >= 3;
-}
-
-void appendThreeLines(const NumberRows& rows, Mesh& mesh) {
-    for (std::size_t i = 0; i < rows.rows.size(); ++i) {
-        const Row& row = rows.rows[i];
+void appendThreeLines(const NumberRows& rows, std::size_t first, RawMesh& mesh) {
+    for (std::size_t i = 0; i + first < rows.rows.size(); ++i) {
+        const Row& row = rows.rows[i + first];
         const std::uint32_t width = i % 3 == 2 ? 2 : 3;
         if (row.count != width)
             rows.refuse(
                 "mesh.syntax", row,
                 "expected " + std::to_string(width) + " numbers, not " + std::to_string(row.count));
-        if (i % 3 == 0) mesh.positions.push_back(vec3At(rows.at(row)));
+        if (i % 3 == 0) mesh.positions.push_back(placeAt(rows, row, rows.at(row)));
         if (i % 3 == 1) mesh.normals.push_back(vec3At(rows.at(row)));
         if (i % 3 == 2) mesh.uvs.push_back(vec2At(rows.at(row)));
     }
-    if (rows.rows.size() % 3 != 0)
+    if ((rows.rows.size() - first) % 3 != 0)
         rows.refuse("mesh.truncated", rows.rows.back(), "the last vertex is incomplete");
 }
 
-void appendRow(const NumberRows& rows, const Row& row, Mesh& mesh) {
+void appendRow(const NumberRows& rows, const Row& row, RawMesh& mesh) {
     const double* v = rows.at(row);
     const std::uint32_t width = row.count;
     if (width == 9) {
-        for (int k = 0; k < 9; k += 3) mesh.positions.push_back(vec3At(v + k));
+        for (int k = 0; k < 9; k += 3) mesh.positions.push_back(placeAt(rows, row, v + k));
         return;
     }
-    mesh.positions.push_back(vec3At(v));
+    if (width == 24) {  // a triangle: three times place, normal, coordinate
+        for (int k = 0; k < 24; k += 8) {
+            mesh.positions.push_back(placeAt(rows, row, v + k));
+            mesh.normals.push_back(vec3At(v + k + 3));
+            mesh.uvs.push_back(vec2At(v + k + 6));
+        }
+        return;
+    }
+    mesh.positions.push_back(placeAt(rows, row, v));
     if (width == 6 || width == 8) mesh.normals.push_back(vec3At(v + 3));
     if (width == 5 || width == 8) mesh.uvs.push_back(vec2At(v + width - 2));
 }
 
+/// The row that holds the number `index`.
+const Row& rowAt(const NumberRows& rows, std::size_t index) {
+    const auto after =
+        std::upper_bound(rows.rows.begin(), rows.rows.end(), index,
+                         [](std::size_t wanted, const Row& row) { return wanted < row.first; });
+    return *(after - 1);
+}
+
 /// Every three vertices become a triangle.
-Mesh indexed(Mesh mesh, const NumberRows& rows) {
+RawMesh indexed(RawMesh mesh, const NumberRows& rows) {
     if (mesh.positions.size() % 3 != 0)
         rows.refuse("mesh.truncated", rows.rows.back(),
                     "the number of vertices, " + std::to_string(mesh.positions.size()) +
@@ -60,13 +66,20 @@ Mesh indexed(Mesh mesh, const NumberRows& rows) {
 
 }  // namespace
 
+bool looksLikeThreeLines(const NumberRows& rows, std::size_t first) {
+    const std::size_t count = rows.rows.size() - first;
+    for (std::size_t i = 0; i < std::min<std::size_t>(count, 6); ++i)
+        if (rows.rows[first + i].count != (i % 3 == 2 ? 2U : 3U)) return false;
+    return count >= 3;
+}
+
 bool looksLikeStream(const NumberRows& rows) {
     const std::size_t count = rows.rows.size();
     if (count == 1) return rows.values.size() > 9;
     return rows.values.size() == count;
 }
 
-Mesh decodeStream(const NumberRows& rows) {
+RawMesh decodeStream(const NumberRows& rows) {
     const std::size_t numbers = rows.values.size() - 1;
     const double said = rows.values[0];
     const bool headed = numbers % 9 == 0 && (said == static_cast<double>(numbers) ||
@@ -78,19 +91,19 @@ Mesh decodeStream(const NumberRows& rows) {
                     "no known mesh format has " + std::to_string(rows.values.size()) +
                         " numbers in one row or column; of positions alone there are nine a "
                         "triangle");
-    Mesh mesh;
+    RawMesh mesh;
     for (std::size_t i = first; i < rows.values.size(); i += 3)
-        mesh.positions.push_back(vec3At(&rows.values[i]));
+        mesh.positions.push_back(placeAt(rows, rowAt(rows, i), &rows.values[i]));
     return indexed(std::move(mesh), rows);
 }
 
-Mesh decodeSoup(const NumberRows& rows, std::size_t first) {
-    Mesh mesh;
+RawMesh decodeSoup(const NumberRows& rows, std::size_t first) {
+    RawMesh mesh;
     const std::uint32_t width = rows.rows[first].count;
-    if (first == 0 && isThreeLines(rows)) {
-        appendThreeLines(rows, mesh);
+    if (looksLikeThreeLines(rows, first)) {
+        appendThreeLines(rows, first, mesh);
     } else {
-        if (width != 3 && width != 5 && width != 6 && width != 8 && width != 9)
+        if (width != 3 && width != 5 && width != 6 && width != 8 && width != 9 && width != 24)
             rows.refuse("mesh.format", rows.rows[first],
                         "no known mesh format has " + std::to_string(width) + " numbers a line");
         for (std::size_t i = first; i < rows.rows.size(); ++i) {

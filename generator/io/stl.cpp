@@ -1,15 +1,18 @@
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <numeric>
 
+#include "core/text.h"
 #include "generator/io/formats.h"
+#include "generator/messages.h"
 
 namespace farol::generator::io {
 namespace {
 
-constexpr std::size_t kHeader = 84;    ///< bytes: a remark of 80, and the number of triangles
-constexpr std::size_t kTriangle = 50;  ///< bytes: normal, three corners, two of attributes
-constexpr std::size_t kNormal = 12;    ///< bytes
+constexpr std::size_t kStlHeader = 84;  ///< bytes: a remark of 80, and the number of triangles
+constexpr std::size_t kTriangle = 50;   ///< bytes: normal, three corners, two of attributes
+constexpr std::size_t kNormal = 12;     ///< bytes
 
 std::uint32_t wordAt(std::string_view bytes, std::size_t at) {  // little-endian
     std::uint32_t word = 0;
@@ -19,53 +22,71 @@ std::uint32_t wordAt(std::string_view bytes, std::size_t at) {  // little-endian
 }
 
 /// A binary file says its length itself; some of them begin with "solid", too.
-bool isBinary(std::string_view bytes) {
-    return bytes.size() >= kHeader &&
-           bytes.size() == kHeader + kTriangle * std::size_t{wordAt(bytes, kHeader - 4)};
+bool hasItsLength(std::string_view bytes) {
+    return bytes.size() >= kStlHeader &&
+           bytes.size() == kStlHeader + kTriangle * std::size_t{wordAt(bytes, kStlHeader - 4)};
 }
 
-/// Every three positions are a triangle. The facets' normals are not taken: they are the faces'
+/// "solid", in any case and after blanks, then a "facet", and no zero byte as in binary files.
+bool isText(std::string_view bytes) {
+    constexpr std::size_t kLooked = 1024;  // bytes: the name after "solid" may be long
+    const std::string start = lowerCase(bytes.substr(0, kLooked));
+    const std::size_t word = start.find_first_not_of(" \t\r\n");
+    return word != std::string::npos && start.compare(word, 5, "solid") == 0 &&
+           start.find("facet") != std::string::npos && start.find('\0') == std::string::npos;
+}
+
+/// Every three positions are a triangle. The facets' normals are not used: they are the faces'
 /// own where they are right, and repair.h computes those.
-Mesh soup(std::vector<glm::vec3> positions, const std::string& fileName) {
-    if (positions.empty())
+RawMesh soup(RawMesh mesh, const std::string& fileName) {
+    if (mesh.positions.empty())
         throw Error("mesh.empty", "the STL file holds no triangles", {fileName, 0, 0});
-    checkTriangles(positions.size() / 3, fileName);
-    Mesh mesh;
-    mesh.positions = std::move(positions);
+    checkTriangles(mesh.positions.size() / 3, fileName);
     mesh.indices.resize(mesh.positions.size());
     std::iota(mesh.indices.begin(), mesh.indices.end(), 0U);
     return mesh;
 }
 
-Mesh decodeBinaryStl(std::string_view bytes, const std::string& fileName) {
-    const std::uint32_t triangles = wordAt(bytes, kHeader - 4);
+RawMesh decodeBinaryStl(std::string_view bytes, const std::string& fileName) {
+    const std::size_t header = wordAt(bytes, kStlHeader - 4);
+    const std::size_t held = (bytes.size() - kStlHeader) / kTriangle;
+    // Some programs leave the count 0; a file that is cut off holds less than it.
+    const std::size_t triangles = header == 0 ? held : std::min(header, held);
     checkTriangles(triangles, fileName);
-    std::vector<glm::vec3> positions(3 * std::size_t{triangles});
-    for (std::size_t i = 0; i < positions.size(); ++i) {
-        const std::size_t at = kHeader + kTriangle * (i / 3) + kNormal + 12 * (i % 3);
+    RawMesh mesh;
+    if (header != triangles)
+        mesh.findings.push_back(
+            diagnosticOf(Severity::warning,
+                         message<"mesh.count-wrong/stl">("count"_arg = header, "held"_arg = held),
+                         {fileName, 0, 0}));
+    const std::size_t rest = bytes.size() - kStlHeader - kTriangle * triangles;
+    if (rest > 0) mesh.leftOut["bytes after the last triangle"] += rest;
+    mesh.positions.resize(3 * triangles);
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        const std::size_t at = kStlHeader + kTriangle * (i / 3) + kNormal + 12 * (i % 3);
         for (int k = 0; k < 3; ++k) {
             const float value =
                 std::bit_cast<float>(wordAt(bytes, at + 4 * static_cast<std::size_t>(k)));
             if (!(std::abs(double{value}) <= kMaxCoordinate))
                 throw Error("mesh.number", "a coordinate is no finite number within 1e18",
                             {fileName, 0, 0});
-            positions[i][k] = value;
+            mesh.positions[i][k] = value;
         }
     }
-    return soup(std::move(positions), fileName);
+    return soup(std::move(mesh), fileName);
 }
 
 }  // namespace
 
-bool looksLikeStl(std::string_view bytes) {
-    constexpr std::size_t kLooked = 1024;  // bytes: the name after "solid" may be long
-    return isBinary(bytes) || (bytes.substr(0, 5) == "solid" &&
-                               bytes.substr(0, kLooked).find("facet") != std::string_view::npos);
+bool looksLikeStl(std::string_view bytes, const std::string& fileName) {
+    return hasItsLength(bytes) || isText(bytes) ||
+           (fileEnding(fileName) == "stl" && bytes.size() >= kStlHeader + kTriangle &&
+            bytes.find('\0') != std::string_view::npos);
 }
 
-Mesh decodeStl(std::string_view bytes, const std::string& fileName) {
-    if (isBinary(bytes)) return decodeBinaryStl(bytes, fileName);
-    std::vector<glm::vec3> positions;
+RawMesh decodeStl(std::string_view bytes, const std::string& fileName) {
+    if (hasItsLength(bytes) || !isText(bytes)) return decodeBinaryStl(bytes, fileName);
+    RawMesh mesh;
     int line = 0;
     while (!bytes.empty()) {
         ++line;
@@ -75,18 +96,19 @@ Mesh decodeStl(std::string_view bytes, const std::string& fileName) {
         // Of "facet normal", "outer loop", "vertex" and their ends only one has a place.
         constexpr std::string_view kVertex = "vertex";
         const std::size_t word = text.find_first_not_of(" \t\r");
-        if (word == std::string_view::npos || text.compare(word, kVertex.size(), kVertex) != 0)
+        if (word == std::string_view::npos || !sameWord(text.substr(word, kVertex.size()), kVertex))
             continue;
         const std::size_t at = word + kVertex.size();
         const NumberRows rows =
             parseRows(text.substr(at), fileName, line, static_cast<int>(at) + 1);
         if (rows.values.size() != 3)
             rows.refuse("mesh.syntax", rows.rows[0], "a vertex has three numbers");
-        positions.emplace_back(rows.values[0], rows.values[1], rows.values[2]);
+        checkCounts(mesh.positions.size() + 1, 0, fileName);
+        mesh.positions.push_back(placeAt(rows, rows.rows[0], rows.values.data()));
     }
-    if (positions.size() % 3 != 0)
+    if (mesh.positions.size() % 3 != 0)
         throw Error("mesh.truncated", "the last facet is incomplete", {fileName, line, 1});
-    return soup(std::move(positions), fileName);
+    return soup(std::move(mesh), fileName);
 }
 
 }  // namespace farol::generator::io

@@ -1,7 +1,9 @@
+#include <algorithm>
 #include <charconv>
 
 #include "generator/io/formats.h"
 #include "generator/io/writer.h"
+#include "generator/messages.h"
 
 namespace farol::generator::io {
 namespace {
@@ -17,9 +19,16 @@ std::vector<Vector> vectorsOf(const NumberRows& rows, std::size_t begin, std::si
                 "mesh.syntax", row,
                 "expected " + std::to_string(N) + " numbers, not " + std::to_string(row.count));
         Vector value;
-        for (int k = 0; k < N; ++k) value[k] = static_cast<float>(rows.at(row)[k]);
+        for (int k = 0; k < N; ++k)
+            value[k] = static_cast<typename Vector::value_type>(rows.at(row)[k]);
         out.push_back(value);
     }
+    return out;
+}
+
+std::vector<glm::dvec3> placesOf(const NumberRows& rows, std::size_t begin, std::size_t end) {
+    std::vector<glm::dvec3> out = vectorsOf<3, glm::dvec3>(rows, begin, end);
+    for (std::size_t i = begin; i < end; ++i) placeAt(rows, rows.rows[i], rows.at(rows.rows[i]));
     return out;
 }
 
@@ -27,9 +36,13 @@ std::vector<Vector> vectorsOf(const NumberRows& rows, std::size_t begin, std::si
 std::vector<std::uint32_t> indicesOf(const NumberRows& rows, std::size_t begin, std::size_t end,
                                      std::size_t vertices) {
     std::vector<std::uint32_t> out;
+    const double base =
+        end > begin ? indexBase(rows.at(rows.rows[begin]),
+                                rows.at(rows.rows[end - 1]) + rows.rows[end - 1].count, vertices)
+                    : 0.0;
     for (std::size_t i = begin; i < end; ++i)
         for (std::uint32_t k = 0; k < rows.rows[i].count; ++k)
-            out.push_back(indexIn(rows, rows.rows[i], rows.at(rows.rows[i])[k], vertices));
+            out.push_back(indexIn(rows, rows.rows[i], rows.at(rows.rows[i])[k] - base, vertices));
     if (out.size() % 3 != 0)
         rows.refuse("mesh.truncated", rows.rows[end - 1],
                     "the number of indices, " + std::to_string(out.size()) +
@@ -62,6 +75,34 @@ bool couldBeTriangles(const NumberRows& rows, std::size_t begin, std::size_t end
     return true;
 }
 
+/// Rows of one width of a soup after the first, whatever that says, which make whole triangles.
+bool isUniformSoup(const NumberRows& rows) {
+    const std::uint32_t width = rows.rows[1].count;
+    const std::size_t left = rows.rows.size() - 1;
+    if (width != 3 && width != 6 && width != 8 && width != 9 && width != 24) return false;
+    for (std::size_t i = 2; i < rows.rows.size(); ++i)
+        if (rows.rows[i].count != width) return false;
+    return width >= 9 || left % 3 == 0;
+}
+
+/// A soup behind a count that may be none of the `right` ones: then the vertices are what counts.
+RawMesh countedLoosely(const NumberRows& rows, double said, const std::vector<double>& right) {
+    RawMesh mesh = decodeSoup(rows, 1);
+    if (std::find(right.begin(), right.end(), said) == right.end())
+        mesh.findings.push_back(
+            diagnosticOf(Severity::warning,
+                         message<"mesh.count-wrong/soup">("count"_arg = said,
+                                                          "vertices"_arg = mesh.positions.size()),
+                         {rows.file, rows.rows[0].line, 1}));
+    return mesh;
+}
+
+/// What may be counted of a soup of three rows a vertex: vertices, triangles, numbers.
+std::vector<double> countsOf(std::size_t rows) {
+    const double vertices = static_cast<double>(rows) / 3.0;
+    return {vertices, vertices / 3.0, vertices * 8.0};
+}
+
 /// Rows of one width after a count of them, of their triangles or of their numbers.
 bool isCountedSoup(const NumberRows& rows, double said) {
     const std::uint32_t width = rows.rows[1].count;
@@ -78,27 +119,30 @@ bool isCountedSoup(const NumberRows& rows, double said) {
 
 std::string encodeText3d(const Mesh& mesh) {
     Writer out;
-    for (const glm::vec3& p : mesh.positions) out.row({p.x, p.y, p.z});
+    for (std::size_t i = 0; i < mesh.positions().size(); ++i) {
+        out.place(mesh, i);
+        out.text("\n");
+    }
     out.text("\n");
-    for (const glm::vec3& n : mesh.normals) out.row({n.x, n.y, n.z});
-    if (!mesh.normals.empty()) out.text("\n");
-    for (const glm::vec2& uv : mesh.uvs) out.row({uv.x, uv.y});
-    if (!mesh.uvs.empty()) out.text("\n");
-    for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
-        out.number(mesh.indices[i]);
+    for (const glm::vec3& n : mesh.normals()) out.row({n.x, n.y, n.z});
+    if (!mesh.normals().empty()) out.text("\n");
+    for (const glm::vec2& uv : mesh.uvs()) out.row({uv.x, uv.y});
+    if (!mesh.uvs().empty()) out.text("\n");
+    for (std::size_t i = 0; i < mesh.indices().size(); ++i) {
+        out.number(mesh.indices()[i]);
         out.text("\n");
     }
     return out.take();
 }
 
-Mesh decodeBlocks(const NumberRows& rows) {
+RawMesh decodeBlocks(const NumberRows& rows) {
     std::vector<std::size_t> starts;
     for (std::size_t i = 0; i < rows.rows.size(); ++i)
         if (rows.rows[i].block == starts.size()) starts.push_back(i);
     starts.push_back(rows.rows.size());
     const std::size_t last = starts.size() - 2;  // the block of indices
-    Mesh mesh;
-    mesh.positions = vectorsOf<3, glm::vec3>(rows, 0, starts[1]);
+    RawMesh mesh;
+    mesh.positions = placesOf(rows, 0, starts[1]);
     for (std::size_t b = 1; b < last; ++b) {
         const Row& row = rows.rows[starts[b]];
         const std::size_t size = starts[b + 1] - starts[b];
@@ -107,7 +151,7 @@ Mesh decodeBlocks(const NumberRows& rows) {
             mesh.normals = vectorsOf<3, glm::vec3>(rows, starts[b], starts[b + 1]);
         } else if (row.count == 2 && mesh.uvs.empty()) {
             checkAsLong(rows, starts[b], size, mesh.positions.size(), "texture coordinates");
-            mesh.uvs = vectorsOf<2, glm::vec2>(rows, starts[b], starts[b + 1]);
+            mesh.uvs = vectorsOf<2, glm::dvec2>(rows, starts[b], starts[b + 1]);
         } else {
             rows.refuse("mesh.format", row,
                         "expected normals, texture coordinates or indices in this block");
@@ -117,12 +161,12 @@ Mesh decodeBlocks(const NumberRows& rows) {
     return mesh;
 }
 
-Mesh decodeCounted(const NumberRows& rows) {
+RawMesh decodeCounted(const NumberRows& rows) {
     const Row& head = rows.rows[0];
     std::size_t at = 1;
     const double countV = rows.at(head)[0];
     double countI = 0;
-    if (head.count == 2) {
+    if (head.count >= 2) {  // a third may count edges, as in OFF files
         countI = rows.at(head)[1];
     } else {
         countI = rows.at(rows.rows[1])[0];
@@ -137,8 +181,8 @@ Mesh decodeCounted(const NumberRows& rows) {
         rows.refuse("mesh.truncated", head,
                     "the file is shorter than the counts in its first line say");
     const auto n = static_cast<std::size_t>(countV), said = static_cast<std::size_t>(countI);
-    Mesh mesh;
-    mesh.positions = vectorsOf<3, glm::vec3>(rows, at, at + n);
+    RawMesh mesh;
+    mesh.positions = placesOf(rows, at, at + n);
     at += n;
     // How many rows the indices take: three a row (counted one by one, or as triangles), or one.
     const std::size_t rest = rows.rows.size() - at;
@@ -154,7 +198,7 @@ Mesh decodeCounted(const NumberRows& rows) {
         std::size_t vectors = early ? at + indexRows : at;
         for (std::size_t k = 0; k < extra; ++k, vectors += n) {
             if (rows.rows[vectors].count == 2 && mesh.uvs.empty())
-                mesh.uvs = vectorsOf<2, glm::vec2>(rows, vectors, vectors + n);
+                mesh.uvs = vectorsOf<2, glm::dvec2>(rows, vectors, vectors + n);
             else
                 mesh.normals = vectorsOf<3, glm::vec3>(rows, vectors, vectors + n);
         }
@@ -166,19 +210,24 @@ Mesh decodeCounted(const NumberRows& rows) {
                 "the number of lines does not match the counts in the first line");
 }
 
-Mesh decodeSingleCount(const NumberRows& rows) {
+RawMesh decodeSingleCount(const NumberRows& rows) {
     const Row& head = rows.rows[0];
     const double said = *rows.at(head);
     const std::size_t left = rows.rows.size() - 1;
     if (!isCount(said) || said < 1)
         rows.refuse("mesh.count", head, "expected a number of vertices or of indices");
     if (isCountedSoup(rows, said)) return decodeSoup(rows, 1);
+    if (looksLikeThreeLines(rows, 1) && left % 9 == 0)
+        return countedLoosely(rows, said, countsOf(left));
+    if (isUniformSoup(rows) && said != static_cast<double>(left) &&
+        2.0 * said != static_cast<double>(left))
+        return countedLoosely(rows, said, {});
     if (said > static_cast<double>(left))
         rows.refuse("mesh.truncated", head,
                     "the file says " + std::to_string(static_cast<long long>(said)) +
                         " lines but only " + std::to_string(left) + " follow");
     const auto n = static_cast<std::size_t>(said);
-    Mesh mesh;
+    RawMesh mesh;
     if (rows.rows[1].count == 1) {  // indices, then x y z nx ny nz u v
         const std::size_t begin = 1 + n;
         for (std::size_t i = begin; i < rows.rows.size(); ++i) {
@@ -186,7 +235,7 @@ Mesh decodeSingleCount(const NumberRows& rows) {
             if (row.count != 8)
                 rows.refuse("mesh.syntax", row, "expected 8 numbers: x y z nx ny nz u v");
             const double* v = rows.at(row);
-            mesh.positions.emplace_back(v[0], v[1], v[2]);
+            mesh.positions.push_back(placeAt(rows, row, v));
             mesh.normals.emplace_back(v[3], v[4], v[5]);
             mesh.uvs.emplace_back(v[6], v[7]);
         }
@@ -201,9 +250,9 @@ Mesh decodeSingleCount(const NumberRows& rows) {
     if (n % 3 != 0)
         rows.refuse("mesh.truncated", head, "the number of vertices is not a multiple of three");
     checkTriangles(n / 3, rows.file);
-    mesh.positions = vectorsOf<3, glm::vec3>(rows, 1, 1 + n);
+    mesh.positions = placesOf(rows, 1, 1 + n);
     if (left > n) mesh.normals = vectorsOf<3, glm::vec3>(rows, 1 + n, 1 + 2 * n);
-    if (uvs) mesh.uvs = vectorsOf<2, glm::vec2>(rows, 1 + 2 * n, 1 + 3 * n);
+    if (uvs) mesh.uvs = vectorsOf<2, glm::dvec2>(rows, 1 + 2 * n, 1 + 3 * n);
     for (std::uint32_t i = 0; i < n; ++i) mesh.indices.push_back(i);
     return mesh;
 }

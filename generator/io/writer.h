@@ -4,6 +4,8 @@
 #include <initializer_list>
 #include <string>
 
+#include "generator/mesh.h"
+
 namespace farol::generator::io {
 
 /// Text with numbers in their shortest form that reads back equal, in any locale.
@@ -27,6 +29,18 @@ class Writer {
             first = false;
         }
         out_ += '\n';
+    }
+
+    /// The place of a vertex, parted by blanks: as floats where the mesh has no origin.
+    void place(const Mesh& mesh, std::size_t vertex) {
+        const glm::dvec3 far = mesh.place(vertex);
+        for (int k = 0; k < 3; ++k) {
+            if (k > 0) out_ += ' ';
+            if (mesh.origin() == glm::dvec3(0.0))
+                number(mesh.positions()[vertex][k]);
+            else
+                number(far[k]);
+        }
     }
 
     std::string take() { return std::move(out_); }

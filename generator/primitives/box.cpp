@@ -68,33 +68,31 @@ Mesh box(const glm::dvec3& size, std::size_t divisions, scene::UvLayout layout) 
     return builder.take();
 }
 
-Entry boxEntry() {
+ShapeEntry boxEntry() {
     // The second number means divisions where it is the last, else the second edge.
-    static constexpr auto divisionsOf = [](const Call& call) {
-        return call.given == 2 ? call.count(1) : call.given == 4 ? call.count(3) : std::size_t{1};
-    };
     Argument second = lengthArgument("Y", "edge along Y");
     Argument third = lengthArgument("Z", "edge along Z");
     second.fallback = third.fallback = 1;
     second.whenLast = 3;
-    return {{"box",
-             "a box centred at the origin: X alone is a cube, X DIV a divided cube, X Y Z [DIV] "
-             "a box",
-             {lengthArgument("X", "edge along X"), second, third,
-              Argument{"DIV", true, 1, kMaxCount, "divisions a side", 1}},
-             1,
-             false,
-             {"cube"},
-             "box X [DIV], or box X Y Z [DIV]"},
-            [](const Call& call, const std::string&, scene::UvLayout uv) {
-                const double x = call.length(0);
-                const glm::dvec3 size =
-                    call.given < 3 ? glm::dvec3(x) : glm::dvec3(x, call.length(1), call.length(2));
-                return box(size, divisionsOf(call), uv);
-            },
-            [](const Call& call, const std::string&) {
-                return 12 * divisionsOf(call) * divisionsOf(call);
-            }};
+    return {.name = "box",
+            .aliases = {"cube", "cubo", "caixa", "caja"},
+            .summary =
+                "a box centred at the origin: X alone is a cube, X DIV a divided cube, X Y Z "
+                "[DIV] a box",
+            .arguments = {lengthArgument("X", "edge along X"), second, third,
+                          countArgument("DIV", 1, 1, "divisions a side")},
+            .required = 1,
+            .usage = "box X [DIV], or box X Y Z [DIV]",
+            .generate =
+                [](const ShapeCall& call, const std::string&, scene::UvLayout uv) {
+                    const double x = call.length(0);
+                    const glm::dvec3 size = call.isWritten(1)
+                                                ? glm::dvec3(x, call.length(1), call.length(2))
+                                                : glm::dvec3(x);
+                    return box(size, call.count(3), uv);
+                },
+            .count = [](const ShapeCall& call,
+                        const std::string&) { return 12 * call.count(3) * call.count(3); }};
 }
 
 }  // namespace farol::generator::primitives

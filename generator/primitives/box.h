@@ -12,6 +12,6 @@ namespace farol::generator::primitives {
 Mesh box(const glm::dvec3& size, std::size_t divisions, scene::UvLayout uv);
 
 /// `box DIM [DIV]` is a cube, `box X Y Z [DIV]` a box.
-Entry boxEntry();
+ShapeEntry boxEntry();
 
 }  // namespace farol::generator::primitives

@@ -6,6 +6,6 @@ namespace farol::generator::primitives {
 
 /// A cone: base on XZ, apex at y = height (frustum.h with a top of radius 0). In `atlas` layout
 /// base and side are discs side by side.
-Entry coneEntry();
+ShapeEntry coneEntry();
 
 }  // namespace farol::generator::primitives

@@ -6,6 +6,6 @@ namespace farol::generator::primitives {
 
 /// A cylinder: base on XZ, top at y = height (frustum.h with equal radii). In `atlas` layout the
 /// side lies below both discs.
-Entry cylinderEntry();
+ShapeEntry cylinderEntry();
 
 }  // namespace farol::generator::primitives

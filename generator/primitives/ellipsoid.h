@@ -5,6 +5,6 @@
 namespace farol::generator::primitives {
 
 /// The sphere's mesh (sphere.h) with a half axis of its own along each of X, Y and Z.
-Entry ellipsoidEntry();
+ShapeEntry ellipsoidEntry();
 
 }  // namespace farol::generator::primitives

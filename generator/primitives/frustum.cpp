@@ -9,6 +9,36 @@ namespace {
 
 using scene::UvLayout;
 
+/// The radius form.x + form.y * q.y for q.y in 0..1, closed by discs.
+constexpr SurfaceKind kFrustum{
+    .distance =
+        [](const Surface& surface, const glm::dvec3& eye) {
+            const glm::dvec2 form = surface.form;
+            return distanceToSegment(aboutY(eye), {form.x, 0.0}, {form.x + form.y, 1.0});
+        },
+    .isNeeded = [](const Surface& surface, double fullTurn,
+                   bool) { return surface.form.y != 0.0 || fullTurn < kSmoothTurn; },
+    .fullTurn = fullTurnOfSlices,
+    .balance = [](const std::vector<double>& levels) { return balanceOfSlices(levels.at(0)); },
+    .hasCaps = true,
+    .raySteps = 1,
+    .glsl = R"(
+void expand(vec3 q, vec3 d, out float a, out float b, out float c) {
+    float radius = surfaceForm.x + surfaceForm.y * q.y;
+    float slope = surfaceForm.y * d.y;
+    a = dot(d.xz, d.xz) - slope * slope;
+    b = dot(q.xz, d.xz) - slope * radius;
+    c = dot(q.xz, q.xz) - radius * radius;
+}
+vec3 sideGradient(vec3 q) {
+    return vec3(q.x, -surfaceForm.y * (surfaceForm.x + surfaceForm.y * q.y), q.z);
+}
+#ifdef TEXTURED
+float shareOf(vec3 q) { return q.y; }
+float shareChange(vec3 q, vec3 step) { return step.y; }
+#endif
+)"};
+
 constexpr double kAtlasSide = 0.625;  // of the texture's height is the side's
 
 /// Where the parts of a frustum lie in the texture.
@@ -97,7 +127,7 @@ Mesh frustum(double bottom, double top, double height, std::size_t slices, std::
 
 Surface frustumSurface(double bottom, double top, double height, UvLayout uv, FrustumAtlas atlas) {
     const double widest = std::max(bottom, top);
-    Surface surface{Surface::Kind::frustum, {widest, height, widest}};
+    Surface surface{&kFrustum, {widest, height, widest}};
     surface.form = {bottom / widest, (top - bottom) / widest};
     if (uv == UvLayout::layout2017) {
         surface.uv = {1.0, -1.0, 0.0, 1.0};
@@ -118,26 +148,29 @@ std::size_t frustumTriangles(double bottom, double top, std::size_t slices, std:
     return slices * (2 * stacks - (2 - discs) + discs);
 }
 
-Entry frustumEntry() {
+ShapeEntry frustumEntry() {
     Argument bottom = lengthArgument("BOTTOM", "radius of the base; 0 is an apex");
-    Argument top = lengthArgument("TOP", "radius of the top; 0 is an apex");
+    Argument top = lengthArgument("TOP", "radius of the top; 0 is an apex", 0.5);
     bottom.min = top.min = 0;
     return {
-        {"frustum",
-         "the frustum of a cone, base in XZ, top at y = HEIGHT",
-         {bottom, top, lengthArgument("HEIGHT", "height"),
-          levelArgument("SLICES", 3, kDefaultSlices, "divisions about Y"),
-          levelArgument("STACKS", 1, 8, "divisions of the side along its height")},
-         3,
-         false},
-        [](const Call& call, const std::string&, UvLayout uv) {
-            return frustum(call.length(0), call.length(1), call.length(2), call.count(3),
-                           call.count(4), uv, FrustumAtlas::cylinder);
-        },
-        [](const Call& call, const std::string&) {
-            return frustumTriangles(call.length(0), call.length(1), call.count(3), call.count(4));
-        },
-        [](const Call& call) -> std::string {
+        .name = "frustum",
+        .aliases = {"tronco"},
+        .summary = "the frustum of a cone, base in XZ, top at y = HEIGHT",
+        .arguments = {bottom, top, lengthArgument("HEIGHT", "height"),
+                      levelArgument("SLICES", 3, kDefaultSlices, "divisions about Y"),
+                      levelArgument("STACKS", 1, 8, "divisions of the side along its height")},
+        .required = 3,
+        .generate =
+            [](const ShapeCall& call, const std::string&, UvLayout uv) {
+                return frustum(call.length(0), call.length(1), call.length(2), call.count(3),
+                               call.count(4), uv, FrustumAtlas::cylinder);
+            },
+        .count =
+            [](const ShapeCall& call, const std::string&) {
+                return frustumTriangles(call.length(0), call.length(1), call.count(3),
+                                        call.count(4));
+            },
+        .check = [](const ShapeCall& call) -> std::string {
             const double low = call.length(0), high = call.length(1);
             if (low == 0 && high == 0)
                 return "one of the arguments BOTTOM and TOP of frustum must be over 0";
@@ -146,15 +179,17 @@ Entry frustumEntry() {
                     return "the arguments BOTTOM and TOP of frustum must be 0 or at least 1e-06";
             return "";
         },
-        [](const Call& call, const std::string&, const Fineness& fineness) {
-            const double radius = std::max(call.length(0), call.length(1));
-            return std::vector<double>{circleDivisions(radius, fineness.error, fineness),
-                                       ladder(std::max(1.0, fineness.straightSide))};
-        },
-        [](const Call& call, UvLayout uv) {
-            return frustumSurface(call.length(0), call.length(1), call.length(2), uv,
-                                  FrustumAtlas::cylinder);
-        }};
+        .bound =
+            [](const ShapeCall& call, const std::string&, const Fineness& fineness) {
+                const double radius = std::max(call.length(0), call.length(1));
+                return std::vector<double>{circleDivisions(radius, fineness.error, fineness),
+                                           ladder(std::max(1.0, fineness.straightSide))};
+            },
+        .surface =
+            [](const ShapeCall& call, UvLayout uv) {
+                return frustumSurface(call.length(0), call.length(1), call.length(2), uv,
+                                      FrustumAtlas::cylinder);
+            }};
 }
 
 }  // namespace farol::generator::primitives

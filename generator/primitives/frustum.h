@@ -22,6 +22,6 @@ Surface frustumSurface(double bottom, double top, double height, scene::UvLayout
 /// The triangles of that mesh.
 std::size_t frustumTriangles(double bottom, double top, std::size_t slices, std::size_t stacks);
 
-Entry frustumEntry();
+ShapeEntry frustumEntry();
 
 }  // namespace farol::generator::primitives

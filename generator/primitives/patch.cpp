@@ -5,6 +5,7 @@
 
 #include "generator/bezier.h"
 #include "generator/builder.h"
+#include "generator/io/raw_mesh.h"
 
 namespace farol::generator::primitives {
 namespace {
@@ -64,8 +65,11 @@ std::size_t patchTriangles(const io::PatchFile& file, std::size_t level) {
 Mesh patch(const io::PatchFile& file, std::size_t level) {
     const std::size_t side = level + 1;
     Builder builder(file.patches.size() * side * side, patchTriangles(file, level));
+    const glm::dvec3 origin = io::originOf(file.points);
+    builder.origin(origin);
     for (std::size_t k = 0; k < file.patches.size(); ++k) {
-        const BezierPatch control = controlOf(file, k);
+        BezierPatch control = controlOf(file, k);
+        for (glm::dvec3& point : control) point -= origin;
         const std::uint32_t base = builder.next();
         for (std::size_t row = 0; row <= level; ++row) {
             for (std::size_t column = 0; column <= level; ++column) {
@@ -87,24 +91,28 @@ Mesh patch(const io::PatchFile& file, std::size_t level) {
     return builder.take();
 }
 
-Entry patchEntry() {
-    return {{"patch",
-             "bicubic Bezier patches from a .patch file (teapot.patch is built in)",
-             {levelArgument("LEVEL", 1, kDefaultPatchLevel, "divisions a side of each patch")},
-             0,
-             true,
-             {"bezier"}},
-            [](const Call& call, const std::string& bytes, scene::UvLayout) {
-                return patch(io::parsePatchFile(bytes, call.file), call.count(0));
-            },
-            [](const Call& call, const std::string& bytes) {
-                return patchTriangles(io::parsePatchFile(bytes, call.file), call.count(0));
-            },
-            nullptr,
-            [](const Call& call, const std::string& bytes, const Fineness& fineness) {
-                return std::vector<double>{
-                    patchDivisions(io::parsePatchFile(bytes, call.file), fineness)};
-            }};
+ShapeEntry patchEntry() {
+    return {.name = "patch",
+            .aliases = {"bezier"},
+            .summary = "bicubic Bezier patches from a .patch file (teapot.patch is built in)",
+            .arguments = {levelArgument("LEVEL", 1, kDefaultPatchLevel,
+                                        "divisions a side of each patch")},
+            .takesFile = true,
+            .fileEnding = ".patch",
+            .builtinFile = "teapot.patch",
+            .generate =
+                [](const ShapeCall& call, const std::string& bytes, scene::UvLayout) {
+                    return patch(io::parsePatchFile(bytes, call.file), call.count(0));
+                },
+            .count =
+                [](const ShapeCall& call, const std::string& bytes) {
+                    return patchTriangles(io::parsePatchFile(bytes, call.file), call.count(0));
+                },
+            .bound =
+                [](const ShapeCall& call, const std::string& bytes, const Fineness& fineness) {
+                    return std::vector<double>{
+                        patchDivisions(io::parsePatchFile(bytes, call.file), fineness)};
+                }};
 }
 
 }  // namespace farol::generator::primitives

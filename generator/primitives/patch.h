@@ -17,6 +17,6 @@ std::size_t patchTriangles(const io::PatchFile& file, std::size_t level);
 /// Divisions where none are asked for.
 inline constexpr std::size_t kDefaultPatchLevel = 10;
 
-Entry patchEntry();
+ShapeEntry patchEntry();
 
 }  // namespace farol::generator::primitives

@@ -25,17 +25,18 @@ Mesh plane(double size, std::size_t divisions) {
     return builder.take();
 }
 
-Entry planeEntry() {
-    Argument divisions{"DIV", true, 1, kMaxCount, "divisions a side", 1};
-    return {{"plane",
-             "a square in XZ, centred at the origin, facing +Y",
-             {lengthArgument("SIZE", "length of an edge"), divisions},
-             1,
-             false},
-            [](const Call& call, const std::string&, scene::UvLayout) {
-                return plane(call.length(0), call.count(1));
-            },
-            [](const Call& call, const std::string&) { return 2 * call.count(1) * call.count(1); }};
+ShapeEntry planeEntry() {
+    return {.name = "plane",
+            .aliases = {"plano"},
+            .summary = "a square in XZ, centred at the origin, facing +Y",
+            .arguments = {lengthArgument("SIZE", "length of an edge"),
+                          countArgument("DIV", 1, 1, "divisions a side")},
+            .required = 1,
+            .isSheet = true,
+            .generate = [](const ShapeCall& call, const std::string&,
+                           scene::UvLayout) { return plane(call.length(0), call.count(1)); },
+            .count = [](const ShapeCall& call,
+                        const std::string&) { return 2 * call.count(1) * call.count(1); }};
 }
 
 }  // namespace farol::generator::primitives

@@ -8,6 +8,6 @@ namespace farol::generator::primitives {
 /// quads split from (-x,-z) to (+x,+z); u along +X, v along -Z.
 Mesh plane(double size, std::size_t divisions);
 
-Entry planeEntry();
+ShapeEntry planeEntry();
 
 }  // namespace farol::generator::primitives

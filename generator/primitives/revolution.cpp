@@ -4,11 +4,21 @@
 
 #include "generator/builder.h"
 #include "generator/io/mesh_file.h"
+#include "generator/io/raw_mesh.h"
 
 namespace farol::generator::primitives {
 namespace {
 
 using glm::dvec2;
+
+/// Round about Y; of N copies the last is upon the first.
+constexpr SurfaceKind kTurned{
+    .isNeeded = [](const Surface&, double, bool) { return true; },
+    .fullTurn = [](const std::vector<double>& levels) { return levels.at(0) - 1.0; },
+    .balance =
+        [](const std::vector<double>& levels) { return balanceOfSlices(levels.at(0) - 1.0); },
+    .hasProfile = true,
+};
 
 /// The profile as radii and heights, running upwards.
 struct Outline {
@@ -103,8 +113,13 @@ std::uint32_t addRing(Builder& builder, const Strip& strip, std::size_t j, std::
 Mesh revolution(const std::vector<glm::dvec3>& profile, std::size_t copies,
                 const std::string& fileName) {
     const std::size_t slices = copies - 1;
-    const std::vector<Strip> strips = stripsOf(flatten(profile, fileName), fileName);
+    // Along the axis alone: away from it, the profile's radius is meant.
+    const double origin = io::originOf(profile).y;
+    std::vector<glm::dvec3> near = profile;
+    for (glm::dvec3& point : near) point.y -= origin;
+    const std::vector<Strip> strips = stripsOf(flatten(near, fileName), fileName);
     Builder builder(profile.size() * copies, 2 * profile.size() * slices);
+    builder.origin({0.0, origin, 0.0});
     for (const Strip& strip : strips) {
         std::uint32_t low = addRing(builder, strip, 0, slices);
         for (std::size_t j = 1; j < strip.points.size(); ++j) {
@@ -122,22 +137,24 @@ Mesh revolution(const std::vector<glm::dvec3>& profile, std::size_t copies,
     return builder.take();
 }
 
-Entry revolutionEntry() {
-    return {{"revolution",
-             "a profile (PLY vertices in z = 0) turned about Y; N copies make N - 1 slices",
-             {levelArgument("N", 4, kDefaultSlices + 1, "copies of the profile")},
-             0,
-             true,
-             {"revolve"}},
-            [](const Call& call, const std::string& bytes, scene::UvLayout) {
+ShapeEntry revolutionEntry() {
+    return {
+        .name = "revolution",
+        .aliases = {"revolve"},
+        .summary = "a profile (PLY vertices in z = 0) turned about Y; N copies make N - 1 slices",
+        .arguments = {levelArgument("N", 4, kDefaultSlices + 1, "copies of the profile")},
+        .takesFile = true,
+        .generate =
+            [](const ShapeCall& call, const std::string& bytes, scene::UvLayout) {
                 return revolution(io::decodeProfile(bytes, call.file), call.count(0), call.file);
             },
-            [](const Call& call, const std::string& bytes) {
+        .count =
+            [](const ShapeCall& call, const std::string& bytes) {
                 const std::size_t points = io::decodeProfile(bytes, call.file).size();
                 return 2 * (points - std::min<std::size_t>(points, 1)) * (call.count(0) - 1);
             },
-            nullptr,
-            [](const Call& call, const std::string& bytes, const Fineness& fineness) {
+        .bound =
+            [](const ShapeCall& call, const std::string& bytes, const Fineness& fineness) {
                 double radius = 0.0;
                 for (const auto& point : io::decodeProfile(bytes, call.file))
                     radius = std::max(radius, std::abs(double{point.x}));
@@ -145,8 +162,9 @@ Entry revolutionEntry() {
                 // N copies make N - 1 slices.
                 return std::vector<double>{circleDivisions(radius, fineness.error, fineness) + 1};
             },
-            [](const Call&, scene::UvLayout) {
-                Surface surface{Surface::Kind::turned};
+        .surface =
+            [](const ShapeCall&, scene::UvLayout) {
+                Surface surface{&kTurned};
                 surface.turnFromX = true;
                 return surface;
             }};

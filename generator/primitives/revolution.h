@@ -14,6 +14,6 @@ namespace farol::generator::primitives {
 Mesh revolution(const std::vector<glm::dvec3>& profile, std::size_t copies,
                 const std::string& fileName);
 
-Entry revolutionEntry();
+ShapeEntry revolutionEntry();
 
 }  // namespace farol::generator::primitives

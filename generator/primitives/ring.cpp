@@ -3,6 +3,30 @@
 #include "generator/builder.h"
 
 namespace farol::generator::primitives {
+namespace {
+
+/// In q.y = 0 between the radii form.x and 1.
+constexpr SurfaceKind kRing{
+    .distance =
+        [](const Surface& surface, const glm::dvec3& eye) {
+            return distanceToSegment(aboutY(eye), {surface.form.x, 0.0}, {1.0, 0.0});
+        },
+    // Flat: light alone needs nothing.
+    .isNeeded = [](const Surface&, double, bool textured) { return textured; },
+    .fullTurn = fullTurnOfSlices,
+    .balance = [](const std::vector<double>& levels) { return balanceOfSlices(levels.at(0)); },
+    .hasCaps = true,
+    .glsl = R"(
+vec3 sideGradient(vec3 q) { return vec3(0.0, cap, 0.0); }
+#ifdef TEXTURED
+float shareOf(vec3 q) { return (length(q.xz) - surfaceForm.x) / (1.0 - surfaceForm.x); }
+float shareChange(vec3 q, vec3 step) {
+    return dot(q.xz, step.xz) / (length(q.xz) * (1.0 - surfaceForm.x));
+}
+#endif
+)"};
+
+}  // namespace
 
 Mesh ring(double inner, double outer, std::size_t slices) {
     Builder builder(4 * (slices + 1), 4 * slices);
@@ -27,23 +51,24 @@ Mesh ring(double inner, double outer, std::size_t slices) {
     return builder.take();
 }
 
-Entry ringEntry() {
-    Argument inner = lengthArgument("INNER", "radius of the hole; 0 is a disc");
+ShapeEntry ringEntry() {
+    Argument inner = lengthArgument("INNER", "radius of the hole; 0 is a disc", 0.5);
     inner.min = 0;
     return {
-        {"ring",
-         "a flat ring in XZ about the origin, with faces up and down",
-         {inner, lengthArgument("OUTER", "outer radius, over INNER"),
-          levelArgument("SLICES", 3, 2 * kDefaultSlices, "divisions about Y")},
-         2,
-         false},
-        [](const Call& call, const std::string&, scene::UvLayout) {
-            return ring(call.length(0), call.length(1), call.count(2));
-        },
-        [](const Call& call, const std::string&) {
-            return call.count(2) * (call.length(0) > 0 ? 4U : 2U);
-        },
-        [](const Call& call) -> std::string {
+        .name = "ring",
+        .aliases = {"anel", "anillo", "aro"},
+        .summary = "a flat ring in XZ about the origin, with faces up and down",
+        .arguments = {inner, lengthArgument("OUTER", "outer radius, over INNER"),
+                      levelArgument("SLICES", 3, 2 * kDefaultSlices, "divisions about Y")},
+        .required = 2,
+        .generate =
+            [](const ShapeCall& call, const std::string&, scene::UvLayout) {
+                return ring(call.length(0), call.length(1), call.count(2));
+            },
+        .count = [](const ShapeCall& call,
+                    const std::string&) { return call.count(2) * (call.length(0) > 0 ? 4U : 2U); },
+        .isExchanged = [](const ShapeCall& call) { return call.length(0) > call.length(1); },
+        .check = [](const ShapeCall& call) -> std::string {
             // A narrower ring folds in floats.
             constexpr double kNarrowest = 1e-4;
             const double hole = call.length(0), outer = call.length(1);
@@ -54,14 +79,17 @@ Entry ringEntry() {
                 return "the argument INNER of ring must be 0 or at least 1e-06";
             return "";
         },
-        [](const Call& call, const std::string&, const Fineness& fineness) {
-            return std::vector<double>{circleDivisions(call.length(1), fineness.error, fineness)};
-        },
-        [](const Call& call, scene::UvLayout) {
-            Surface surface{Surface::Kind::ring, glm::dvec3(call.length(1))};
-            surface.form.x = call.length(0) / call.length(1);
-            return surface;
-        }};
+        .bound =
+            [](const ShapeCall& call, const std::string&, const Fineness& fineness) {
+                return std::vector<double>{
+                    circleDivisions(call.length(1), fineness.error, fineness)};
+            },
+        .surface =
+            [](const ShapeCall& call, scene::UvLayout) {
+                Surface surface{&kRing, glm::dvec3(call.length(1))};
+                surface.form.x = call.length(0) / call.length(1);
+                return surface;
+            }};
 }
 
 }  // namespace farol::generator::primitives

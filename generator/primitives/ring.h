@@ -9,6 +9,6 @@ namespace farol::generator::primitives {
 /// An inner radius of 0 is a disc.
 Mesh ring(double inner, double outer, std::size_t slices);
 
-Entry ringEntry();
+ShapeEntry ringEntry();
 
 }  // namespace farol::generator::primitives

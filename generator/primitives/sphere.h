@@ -14,6 +14,6 @@ Mesh ellipsoid(const glm::dvec3& radii, std::size_t slices, std::size_t stacks, 
 /// The surface of that mesh.
 Surface ellipsoidSurface(const glm::dvec3& radii, scene::UvLayout uv);
 
-Entry sphereEntry();
+ShapeEntry sphereEntry();
 
 }  // namespace farol::generator::primitives

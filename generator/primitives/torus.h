@@ -8,6 +8,6 @@ namespace farol::generator::primitives {
 /// +X (u), the tube's angle (v) from the outermost point upwards; ringRadius > tubeRadius.
 Mesh torus(double ringRadius, double tubeRadius, std::size_t rings, std::size_t sides);
 
-Entry torusEntry();
+ShapeEntry torusEntry();
 
 }  // namespace farol::generator::primitives

@@ -8,9 +8,7 @@ namespace farol::render::gl {
 
 // name, type of pointer
 #define FAROL_GL_FUNCTIONS(X)                                                        \
-    X(ActiveTexture, PFNGLACTIVETEXTUREPROC)                                         \
     X(AttachShader, PFNGLATTACHSHADERPROC)                                           \
-    X(BindAttribLocation, PFNGLBINDATTRIBLOCATIONPROC)                               \
     X(BindBuffer, PFNGLBINDBUFFERPROC)                                               \
     X(BindBufferBase, PFNGLBINDBUFFERBASEPROC)                                       \
     X(BindFramebuffer, PFNGLBINDFRAMEBUFFERPROC)                                     \
@@ -19,7 +17,6 @@ namespace farol::render::gl {
     X(BindVertexArray, PFNGLBINDVERTEXARRAYPROC)                                     \
     X(BufferData, PFNGLBUFFERDATAPROC)                                               \
     X(CheckFramebufferStatus, PFNGLCHECKFRAMEBUFFERSTATUSPROC)                       \
-    X(Clear, PFNGLCLEARPROC)                                                         \
     X(ClearBufferfv, PFNGLCLEARBUFFERFVPROC)                                         \
     X(ClipControl, PFNGLCLIPCONTROLPROC)                                             \
     X(CompileShader, PFNGLCOMPILESHADERPROC)                                         \
@@ -54,19 +51,19 @@ namespace farol::render::gl {
     X(GenVertexArrays, PFNGLGENVERTEXARRAYSPROC)                                     \
     X(GetError, PFNGLGETERRORPROC)                                                   \
     X(GetIntegerv, PFNGLGETINTEGERVPROC)                                             \
+    X(GetMultisamplefv, PFNGLGETMULTISAMPLEFVPROC)                                   \
     X(GetFloatv, PFNGLGETFLOATVPROC)                                                 \
     X(GetProgramInfoLog, PFNGLGETPROGRAMINFOLOGPROC)                                 \
     X(GetProgramiv, PFNGLGETPROGRAMIVPROC)                                           \
     X(GetShaderInfoLog, PFNGLGETSHADERINFOLOGPROC)                                   \
     X(GetShaderiv, PFNGLGETSHADERIVPROC)                                             \
     X(GetString, PFNGLGETSTRINGPROC)                                                 \
+    X(GetStringi, PFNGLGETSTRINGIPROC)                                               \
     X(GetUniformLocation, PFNGLGETUNIFORMLOCATIONPROC)                               \
     X(LinkProgram, PFNGLLINKPROGRAMPROC)                                             \
     X(MinSampleShading, PFNGLMINSAMPLESHADINGPROC)                                   \
     X(PixelStorei, PFNGLPIXELSTOREIPROC)                                             \
-    X(PointSize, PFNGLPOINTSIZEPROC)                                                 \
     X(PolygonMode, PFNGLPOLYGONMODEPROC)                                             \
-    X(PolygonOffset, PFNGLPOLYGONOFFSETPROC)                                         \
     X(ReadPixels, PFNGLREADPIXELSPROC)                                               \
     X(RenderbufferStorageMultisample, PFNGLRENDERBUFFERSTORAGEMULTISAMPLEPROC)       \
     X(Scissor, PFNGLSCISSORPROC)                                                     \
@@ -85,7 +82,6 @@ namespace farol::render::gl {
     X(UniformMatrix3fv, PFNGLUNIFORMMATRIX3FVPROC)                                   \
     X(UniformMatrix4fv, PFNGLUNIFORMMATRIX4FVPROC)                                   \
     X(UseProgram, PFNGLUSEPROGRAMPROC)                                               \
-    X(VertexAttrib3fv, PFNGLVERTEXATTRIB3FVPROC)                                     \
     X(VertexAttribPointer, PFNGLVERTEXATTRIBPOINTERPROC)                             \
     X(Viewport, PFNGLVIEWPORTPROC)
 
@@ -96,6 +92,13 @@ struct Api {
 };
 
 using ProcLoader = void (*(*)(const char* name))();
+
+/// Drops errors that an earlier job left pending.
+void clearErrors(const Api& api);
+
+/// Throws std::bad_alloc where the GL has run out of memory, std::runtime_error for other errors
+/// that are pending, and drops them. `step` completes "while ...".
+void throwOnError(const Api& api, const char* step);
 
 /// Fills the table. Throws std::runtime_error that names the first entry point missing.
 Api loadApi(ProcLoader loader);

@@ -1,25 +1,33 @@
 #pragma once
 
 #include <memory>
-#include <string>
 
 #include "render/gl/api.h"
+#include "render/gl_facts.h"
 
 namespace farol::render::gl {
 
-/// A GL 4.5 core context without a window. OSMesa is the one backend today; Mesa 25.1 dropped it,
-/// so a surfaceless EGL one is to fit in behind this interface.
+/// Source of a context.
+enum class Backend {
+    osmesa,  ///< in memory, drawn by the processor
+    egl      ///< surfaceless; Mesa 25.1 dropped OSMesa
+};
+
+/// A GL 4.5 core context without a window.
 class Context {
   public:
     virtual ~Context() = default;
     /// Makes the context current on the calling thread.
     virtual void makeCurrent() = 0;
     virtual const Api& api() const = 0;
-    /// "llvmpipe (LLVM ...), 4.5 (Core Profile) Mesa 22.3.6"
-    virtual const std::string& description() const = 0;
+    virtual const GlFacts& facts() const = 0;
 };
 
-/// Creates an OSMesa context and makes it current. Throws std::runtime_error when there is none.
-std::unique_ptr<Context> createOsMesaContext();
+/// Creates a context and makes it current. Throws std::runtime_error, which names the backend,
+/// where this build or this machine has none.
+std::unique_ptr<Context> createContext(Backend backend);
+
+/// Asks the current context. Leaves nothing bound.
+GlFacts askFacts(const Api& api);
 
 }  // namespace farol::render::gl

@@ -16,9 +16,9 @@ struct FlatVertex {
 };
 
 Vertex vertexOf(const generator::Mesh& mesh, std::uint32_t index) {
-    Vertex vertex{mesh.positions[index], glm::vec3(0.0F), glm::vec2(0.0F)};
-    if (!mesh.normals.empty()) vertex.normal = mesh.normals[index];
-    if (!mesh.uvs.empty()) vertex.uv = mesh.uvs[index];
+    Vertex vertex{mesh.positions()[index], glm::vec3(0.0F), glm::vec2(0.0F)};
+    if (!mesh.normals().empty()) vertex.normal = mesh.normals()[index];
+    if (!mesh.uvs().empty()) vertex.uv = mesh.uvs()[index];
     return vertex;
 }
 
@@ -35,6 +35,21 @@ void attribute(const Api& api, GLuint location, GLint size, std::size_t stride, 
     api.EnableVertexAttribArray(location);
     api.VertexAttribPointer(location, size, GL_FLOAT, GL_FALSE, static_cast<GLsizei>(stride),
                             offset(at));
+}
+
+/// The mesh's own colours, attribute 12, where it has any. Returns their bytes.
+std::size_t addColors(const Api& api, GpuMesh& gpu, const generator::Mesh& mesh, bool flat) {
+    if (mesh.colors().empty()) return 0;
+    std::vector<glm::u8vec4> colors;
+    if (flat)
+        for (const std::uint32_t index : mesh.indices()) colors.push_back(mesh.colors()[index]);
+    const std::vector<glm::u8vec4>& all = flat ? colors : mesh.colors();
+    gpu.colors = Buffer(api);
+    fill(api, gpu.colors, GL_ARRAY_BUFFER, all);
+    constexpr GLuint kLocation = 12;
+    api.EnableVertexAttribArray(kLocation);
+    api.VertexAttribPointer(kLocation, 4, GL_UNSIGNED_BYTE, GL_TRUE, 0, nullptr);
+    return all.size() * sizeof(glm::u8vec4);
 }
 
 /// Read by the shader of instances alone.
@@ -55,16 +70,16 @@ GpuMesh upload(const Api& api, const generator::Mesh& mesh, bool flat, const Buf
     GpuMesh gpu;
     gpu.array = VertexArray(api);
     gpu.vertices = Buffer(api);
-    gpu.count = static_cast<GLsizei>(mesh.indices.size());
+    gpu.count = static_cast<GLsizei>(mesh.indices().size());
     gpu.indexed = !flat;
     api.BindVertexArray(gpu.array.name());
     const std::size_t stride = flat ? sizeof(FlatVertex) : sizeof(Vertex);
     if (flat) {
         std::vector<FlatVertex> vertices;
-        vertices.reserve(mesh.indices.size());
-        for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+        vertices.reserve(mesh.indices().size());
+        for (std::size_t i = 0; i + 2 < mesh.indices().size(); i += 3) {
             Vertex corners[3];
-            for (std::size_t c = 0; c < 3; ++c) corners[c] = vertexOf(mesh, mesh.indices[i + c]);
+            for (std::size_t c = 0; c < 3; ++c) corners[c] = vertexOf(mesh, mesh.indices()[i + c]);
             const glm::dvec3 a(corners[0].position), b(corners[1].position), c(corners[2].position);
             const glm::dvec3 cross = glm::cross(b - a, c - a);
             const double size = glm::length(cross);
@@ -78,17 +93,18 @@ GpuMesh upload(const Api& api, const generator::Mesh& mesh, bool flat, const Buf
         attribute(api, 3, 3, stride, offsetof(FlatVertex, center));
     } else {
         std::vector<Vertex> vertices;
-        vertices.reserve(mesh.positions.size());
-        for (std::uint32_t i = 0; i < mesh.positions.size(); ++i)
+        vertices.reserve(mesh.positions().size());
+        for (std::uint32_t i = 0; i < mesh.positions().size(); ++i)
             vertices.push_back(vertexOf(mesh, i));
         fill(api, gpu.vertices, GL_ARRAY_BUFFER, vertices);
         gpu.indices = Buffer(api);
-        fill(api, gpu.indices, GL_ELEMENT_ARRAY_BUFFER, mesh.indices);
-        gpu.bytes = vertices.size() * stride + mesh.indices.size() * sizeof(std::uint32_t);
+        fill(api, gpu.indices, GL_ELEMENT_ARRAY_BUFFER, mesh.indices());
+        gpu.bytes = vertices.size() * stride + mesh.indices().size() * sizeof(std::uint32_t);
     }
     attribute(api, 0, 3, stride, offsetof(Vertex, position));
     attribute(api, 1, 3, stride, offsetof(Vertex, normal));
     attribute(api, 2, 2, stride, offsetof(Vertex, uv));
+    gpu.bytes += addColors(api, gpu, mesh, flat);
     addPlaces(api, places);
     return gpu;
 }
@@ -99,6 +115,7 @@ const GpuMesh& MeshStore::get(const MeshData& data, bool flat) {
     const Key key{data.id, flat};
     if (const GpuMesh* known = meshes_.find(key)) return *known;
     GpuMesh mesh = upload(api_, data.mesh, flat, places_);
+    throwOnError(api_, "uploading a mesh");  // before it is kept for other jobs
     const std::size_t bytes = mesh.bytes;
     return meshes_.put(key, std::move(mesh), bytes);
 }

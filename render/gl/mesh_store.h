@@ -2,9 +2,9 @@
 
 #include <cstdint>
 
+#include "core/lru_cache.h"
 #include "render/gl/objects.h"
-#include "render/lru.h"
-#include "render/mesh_library.h"
+#include "render/plan/mesh_library.h"
 
 namespace farol::render::gl {
 
@@ -12,7 +12,7 @@ namespace farol::render::gl {
 /// middle (attribute 3), drawn without indices.
 struct GpuMesh {
     VertexArray array;
-    Buffer vertices, indices;
+    Buffer vertices, indices, colors;
     GLsizei count = 0;
     bool indexed = true;
     std::size_t bytes = 0;

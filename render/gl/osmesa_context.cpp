@@ -1,4 +1,4 @@
-#include "render/gl/context.h"
+#include "render/gl/osmesa_context.h"
 // osmesa.h brings the old gl.h, which must come after glcorearb.h.
 #include <GL/osmesa.h>
 
@@ -12,8 +12,8 @@ namespace {
 
 /// llvmpipe filters 8-bit textures in 8-bit arithmetic unless told otherwise: 0.41 to 0.53 levels
 /// rms against the exact filter instead of 0.32 to 0.40, for 6 to 12 % of a textured frame
-/// (measured; docs/accuracy.md). It reads the variable once, when the first context is made; what
-/// the environment says already stays.
+/// (measured; docs/benchmarks/accuracy.md). It reads the variable once, when the first context is
+/// made; what the environment says already stays.
 void chooseExactFilters() {
     static std::once_flag once;
     std::call_once(once, [] { setenv("GALLIVM_PERF", "no_aos_sampling", 0); });
@@ -37,19 +37,17 @@ class OsMesaContext final : public Context {
                                              0,
                                              0};
         context_ = OSMesaCreateContextAttribs(attributes.data(), nullptr);
-        if (!context_) throw std::runtime_error("OSMesa gives no GL 4.5 core context");
+        if (!context_) throw std::runtime_error("GL backend \"osmesa\" has no GL 4.5 core context");
         try {
             makeCurrent();
             api_ = loadApi(OSMesaGetProcAddress);
+            facts_ = askFacts(api_);
         } catch (...) {
             OSMesaDestroyContext(context_);
             throw;
         }
-        const auto text = [&](GLenum name) {
-            const GLubyte* value = api_.GetString(name);
-            return value ? std::string(reinterpret_cast<const char*>(value)) : std::string("?");
-        };
-        description_ = text(GL_RENDERER) + ", " + text(GL_VERSION);
+        // Mesa reports GL's least of 4 bits; llvmpipe has 8 (its FIXED_ORDER).
+        facts_.snapPx = 1.0 / 512.0;
     }
     ~OsMesaContext() override { OSMesaDestroyContext(context_); }
     OsMesaContext(const OsMesaContext&) = delete;
@@ -61,13 +59,13 @@ class OsMesaContext final : public Context {
             throw std::runtime_error("OSMesa cannot make its context current");
     }
     const Api& api() const override { return api_; }
-    const std::string& description() const override { return description_; }
+    const GlFacts& facts() const override { return facts_; }
 
   private:
     OSMesaContext context_ = nullptr;
     std::array<unsigned char, 4> pixel_{};
     Api api_;
-    std::string description_;
+    GlFacts facts_;
 };
 
 }  // namespace

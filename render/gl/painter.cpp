@@ -9,13 +9,10 @@
 #include <optional>
 #include <set>
 
-#include "render/batches.h"
-#include "render/camera.h"
 #include "render/gl/mesh_store.h"
 #include "render/gl/program.h"
 #include "render/gl/target.h"
 #include "render/gl/texture_store.h"
-#include "render/sampling.h"
 
 namespace farol::render::gl {
 namespace {
@@ -30,7 +27,7 @@ double sinceMs(std::chrono::steady_clock::time_point begin) {
 }
 
 /// Alpha was blended towards a transparent black: divides it out again.
-void unpremultiply(Image& image) {
+void unpremultiply(image::Image& image) {
     for (std::size_t i = 0; i < image.pixels.size(); i += 4) {
         const unsigned alpha = image.pixels[i + 3];
         if (alpha == 0 || alpha == 255) continue;
@@ -38,18 +35,6 @@ void unpremultiply(Image& image) {
             image.pixels[i + c] = static_cast<std::uint8_t>(
                 std::min(255U, (image.pixels[i + c] * 255U + alpha / 2) / alpha));
     }
-}
-
-void defineSurface(const generator::Surface& surface, std::string& defines) {
-    using Kind = generator::Surface::Kind;
-    defines += "#define SURFACE\n";
-    defines += surface.kind == Kind::ellipsoid ? "#define SURFACE_ELLIPSOID\n"
-               : surface.kind == Kind::frustum ? "#define SURFACE_FRUSTUM\n"
-               : surface.kind == Kind::torus   ? "#define SURFACE_TORUS\n"
-               : surface.kind == Kind::turned  ? "#define SURFACE_TURNED\n"
-                                               : "#define SURFACE_RING\n";
-    if (surface.turnFromX) defines += "#define SURFACE_TURN_FROM_X\n";
-    if (surface.discUv) defines += "#define SURFACE_DISC_UV\n";
 }
 
 void setSurface(const Api& api, const DrawItem& item, const LinkedProgram& program) {
@@ -69,72 +54,115 @@ void setSurface(const Api& api, const DrawItem& item, const LinkedProgram& progr
 }
 
 /// `image` of the plan's size becomes sum / whole, rounded.
-void takeMean(const std::vector<std::uint32_t>& sum, std::uint32_t whole, Image& image) {
+void takeMean(const std::vector<std::uint32_t>& sum, std::uint32_t whole, image::Image& image) {
     image.pixels.resize(sum.size());
     for (std::size_t i = 0; i < sum.size(); ++i)
         image.pixels[i] = static_cast<std::uint8_t>((sum[i] + whole / 2) / whole);
 }
 
-bool hasBackdrop(const FramePlan& plan) {
-    return plan.skyboxTexture >= 0 || plan.backgroundTexture >= 0;
+GLsizei countOf(const DrawItem& item) { return static_cast<GLsizei>(item.indices); }
+
+/// Where the item's indices begin in their buffer.
+const void* firstOf(const DrawItem& item) {
+    return reinterpret_cast<const void*>(item.firstIndex * sizeof(std::uint32_t));
+}
+
+GLenum modeOf(Polygons polygons) {
+    return polygons == Polygons::outlined   ? GL_LINE
+           : polygons == Polygons::cornered ? GL_POINT
+                                            : GL_FILL;
+}
+
+/// The painter's objects are made in it.
+std::unique_ptr<Context> madeCurrent(std::unique_ptr<Context> context) {
+    context->makeCurrent();
+    return context;
+}
+
+ProgramKey keyOf(const FramePlan& plan, const Pass& pass, const Batch& batch) {
+    const DrawItem& first = plan.items[plan.batches.order[batch.first]];
+    ProgramKey key;
+    key.features = pass.features | (batch.features & pass.itemFeatures);
+    if (batch.instanced) key.features.add(Feature::instanced);
+    if (key.features.has(Feature::surface))
+        key.surfaceKind = plan.items[plan.batches.order[batch.first]].surface->kind->glsl;
+    const auto set = static_cast<std::size_t>(first.lightSet);
+    if (pass.features.hasAny(kLitFeatures))
+        key.count = static_cast<int>(plan.lightSets[set].size());
+    return key;
 }
 
 }  // namespace
 
 struct Painter::State {
-    std::unique_ptr<Context> context = createOsMesaContext();
+    std::unique_ptr<Context> context;
     const Api& api = context->api();
+    const GlFacts& facts = context->facts();
     ProgramCache programs{api};
     Buffer placeBuffer{api};
     MeshStore meshes{api, placeBuffer, kMeshBytes};
-    TextureStore textures{api, kTextureBytes};
+    TextureStore textures{api, facts, kTextureBytes};
     std::optional<Target> target;
     VertexArray lineArray{api}, emptyArray{api};
     Buffer lineBuffer{api};
     std::vector<Buffer> lightBuffers;
     std::vector<GLuint> textureNames;
-    Batches batches;
-    GLint mostSamples = 1;
+    std::vector<std::vector<TextureNote>> textureNotes;  ///< of each texture of the plan
 
-    State() {
-        api.GetIntegerv(GL_MAX_SAMPLES, &mostSamples);
-        mostSamples = std::min(mostSamples, kGlSamples);
+    explicit State(std::unique_ptr<Context> with) : context(madeCurrent(std::move(with))) {
         api.ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
-        api.Enable(GL_DEPTH_TEST);
-        api.DepthFunc(GL_GREATER);
         api.Enable(GL_CULL_FACE);
         api.CullFace(GL_BACK);
         api.Enable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
         api.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
         api.MinSampleShading(1.0F);
+        restoreState();
+    }
+
+    /// What a plan changes while it is drawn, as every plan expects it: one that failed may have
+    /// left it changed.
+    void restoreState() {
+        clearErrors(api);
+        api.Disable(GL_SCISSOR_TEST);
+        api.Enable(GL_DEPTH_TEST);
+        api.DepthMask(GL_TRUE);
+        api.DepthFunc(GL_GREATER);
+        api.FrontFace(GL_CCW);
+        api.PolygonMode(GL_FRONT_AND_BACK, GL_FILL);
     }
 
     void prepareTextures(const FramePlan& plan, const OpenTexture& open);
     void compileAhead(const FramePlan& plan);
     void prepare(const FramePlan& plan, const OpenTexture& open);
-    void drawPass(const FramePlan& plan, const glm::dvec2& offset, int& drawCalls);
-    void drawBackdrop(const FramePlan& plan, int& drawCalls);
-    void drawItems(const FramePlan& plan, const glm::mat4& clip, int& drawCalls);
-    void drawLines(const std::vector<LineVertex>& lines, const glm::mat4& clip, int& drawCalls);
-    void drawOne(const DrawItem& item, const GpuMesh& mesh, const LinkedProgram& program);
     void preparePlaces(const FramePlan& plan);
+    void begin(const FramePlan& plan, const Pass& pass);
+    void drawPass(const FramePlan& plan, const Pass& pass, int& drawCalls);
+    void drawModels(const FramePlan& plan, const Pass& pass, const PassItem& models,
+                    int& drawCalls);
+    void drawLines(const FramePlan& plan, const Pass& pass, const PassItem& lines, int& drawCalls);
+    void drawBackdrop(const FramePlan& plan, const PassItem& backdrop, int& drawCalls);
+    void drawOne(const DrawItem& item, const GpuMesh& mesh, const LinkedProgram& program);
     Target::Resolver resolver(int samples);
-    ProgramKey keyOf(const FramePlan& plan, const DrawItem& item, bool instanced) const;
-    void setLights(const std::vector<EyeLight>& lights, GLuint buffer,
-                   const LinkedProgram& program);
+    void setLights(const DrawItem& item, int count, const LinkedProgram& program);
     void setMaterial(const FramePlan& plan, const DrawItem& item, const LinkedProgram& program);
 };
 
-Painter::Painter() : state_(std::make_unique<State>()) {}
+Painter::Painter(std::unique_ptr<Context> context)
+    : state_(std::make_unique<State>(std::move(context))) {}
 Painter::~Painter() = default;
-const std::string& Painter::description() const { return state_->context->description(); }
+const GlFacts& Painter::facts() const { return state_->facts; }
 
 void Painter::State::prepareTextures(const FramePlan& plan, const OpenTexture& open) {
-    textureNames.clear();
+    textureNames.assign(plan.textures.size(), 0);
+    textureNotes.assign(plan.textures.size(), {});
     std::vector<const TextureRef*> missing;
-    for (const TextureRef& ref : plan.textures) {
-        textureNames.push_back(textures.find(ref));
-        if (textureNames.back() == 0) missing.push_back(&ref);
+    for (std::size_t i = 0; i < plan.textures.size(); ++i) {
+        if (const TextureStore::Entry* known = textures.find(plan.textures[i])) {
+            textureNames[i] = known->texture.name();
+            textureNotes[i] = known->notes;
+        } else {
+            missing.push_back(&plan.textures[i]);
+        }
     }
     if (missing.empty()) return;
     std::vector<TextureStore::Reserved> reserved(plan.textures.size());
@@ -149,49 +177,44 @@ void Painter::State::prepareTextures(const FramePlan& plan, const OpenTexture& o
     };
     const auto take = [&](const TextureRef& ref, const TextureLevels& levels) {
         const std::size_t i = indexOf(ref);
-        textureNames[i] = textures.put(ref, std::move(reserved[i]), levels, plan.textures.size());
+        const TextureStore::Entry& entry =
+            textures.put(ref, std::move(reserved[i]), levels, plan.textures.size());
+        textureNames[i] = entry.texture.name();
+        textureNotes[i] = entry.notes;
     };
-    loadTextures(missing, open, {expect, [&] { compileAhead(plan); }, take});
+    loadTextures(missing, open, {expect, [&] { compileAhead(plan); }, take}, facts);
 }
 
 /// Makes the GL compile its code for this frame, by draws of which no pixel is let through: the
 /// code depends on programs, textures and target, not on what is in them.
 void Painter::State::compileAhead(const FramePlan& plan) {
-    const bool flat = plan.lit && plan.shading == scene::Shading::flat;
     std::set<std::pair<const LinkedProgram*, GLuint>> done;
-    target->bind();
     api.Enable(GL_SCISSOR_TEST);
     api.Scissor(0, 0, 0, 0);
-    for (const Batch& batch : batches.batches) {
-        const DrawItem& first = plan.items[batches.order[batch.first]];
-        const GLuint texture =
-            first.texture < 0 ? 0 : textureNames[static_cast<std::size_t>(first.texture)];
-        if (first.texture >= 0 && texture == 0) continue;  // not even its size is known
-        const LinkedProgram& program = programs.get(keyOf(plan, first, batch.instanced));
-        if (!done.emplace(&program, texture).second) continue;
-        api.UseProgram(program.program.name());
-        if (texture != 0) api.BindTexture(GL_TEXTURE_2D, texture);
-        const auto set = static_cast<std::size_t>(first.lightSet);
-        if (plan.lit && !plan.lightSets[set].empty())
-            setLights(plan.lightSets[set], lightBuffers[set].name(), program);
-        api.BindVertexArray(meshes.get(*first.mesh, flat).array.name());
-        api.DrawArrays(GL_TRIANGLES, 0, 3);
-        if (done.size() >= kMostAhead) break;
+    for (const Pass& pass : plan.passes) {
+        begin(plan, pass);
+        for (const Batch& batch : plan.batches.batches) {
+            if (done.size() >= kMostAhead) break;
+            const DrawItem& first = plan.items[plan.batches.order[batch.first]];
+            const GLuint texture =
+                first.texture < 0 ? 0 : textureNames[static_cast<std::size_t>(first.texture)];
+            if (first.texture >= 0 && texture == 0) continue;  // not even its size is known
+            const ProgramKey key = keyOf(plan, pass, batch);
+            const LinkedProgram& program = programs.get(key);
+            if (!done.emplace(&program, texture).second) continue;
+            api.UseProgram(program.program.name());
+            if (texture != 0) api.BindTexture(GL_TEXTURE_2D, texture);
+            setLights(first, key.count, program);
+            api.BindVertexArray(
+                meshes.get(*first.mesh, pass.features.has(Feature::flat)).array.name());
+            api.DrawArrays(GL_TRIANGLES, 0, 3);
+        }
+        if (pass.target.output != PassOutput::none) target->resolve(resolver(pass.target.samples));
     }
-    target->resolve(resolver(target->samples()));
     api.Disable(GL_SCISSOR_TEST);
 }
 
 void Painter::State::prepare(const FramePlan& plan, const OpenTexture& open) {
-    const Sampling sampled = chooseSampling(plan.samples, mostSamples);
-    const auto channels = sampled.passes > 1 ? Target::Channels::bits16 : Target::Channels::bits8;
-    if (!target || !target->fits(plan.width, plan.height, sampled.samples, channels)) {
-        target.reset();  // the old one first: two large ones need not fit
-        target.emplace(api, plan.width, plan.height, sampled.samples, channels);
-    }
-    // With passes of their own, each sample is shaded: what changes within a pixel is averaged.
-    (sampled.passes > 1 ? api.Enable : api.Disable)(GL_SAMPLE_SHADING);
-    batches = batchesOf(plan);
     preparePlaces(plan);
     while (lightBuffers.size() < plan.lightSets.size()) lightBuffers.emplace_back(api);
     for (std::size_t i = 0; i < plan.lightSets.size(); ++i) {
@@ -207,10 +230,10 @@ void Painter::State::prepare(const FramePlan& plan, const OpenTexture& open) {
 /// The places of all instanced batches, one behind the other.
 void Painter::State::preparePlaces(const FramePlan& plan) {
     std::vector<PlaceVertex> places;
-    for (const Batch& batch : batches.batches) {
+    for (const Batch& batch : plan.batches.batches) {
         if (!batch.instanced) continue;
         for (std::size_t i = batch.first; i < batch.first + batch.count; ++i) {
-            const DrawItem& item = plan.items[batches.order[i]];
+            const DrawItem& item = plan.items[plan.batches.order[i]];
             places.push_back({item.viewFromObject, item.normalFromObject, item.surfaceEye});
         }
     }
@@ -220,85 +243,27 @@ void Painter::State::preparePlaces(const FramePlan& plan) {
                    places.data(), GL_STREAM_DRAW);
 }
 
-ProgramKey Painter::State::keyOf(const FramePlan& plan, const DrawItem& item,
-                                 bool instanced) const {
-    std::string defines;
-    const auto define = [&](const char* text) { defines += std::string("#define ") + text + '\n'; };
-    switch (plan.layer) {
-        case Layer::id:
-            define("LAYER_ID");
-            break;
-        case Layer::normal:
-            define("LAYER_NORMAL");
-            break;
-        case Layer::depth:
-            define("LAYER_DEPTH");
-            break;
-        case Layer::color:
-            break;
-    }
-    const std::vector<EyeLight>& lights = plan.lightSets[static_cast<std::size_t>(item.lightSet)];
-    defines += "#define LIGHT_COUNT " + std::to_string(plan.lit ? lights.size() : 0) + '\n';
-    // What shows neither light nor a texture needs its outline only.
-    const bool plain =
-        plan.layer == Layer::id || (plan.layer == Layer::color && !plan.lit && item.texture < 0);
-    if (item.surface && !plain) defineSurface(*item.surface, defines);
-    if (instanced) define("INSTANCED");
-    if (plan.layer != Layer::color) return {"model", defines};
-    if (item.texture >= 0) {
-        const auto filter = plan.textures[static_cast<std::size_t>(item.texture)].filter;
-        define("TEXTURED");
-        if (filter == scene::Filter::mipmap) define("FILTER_MIPMAP");
-        if (filter == scene::Filter::anisotropic) define("FILTER_ANISOTROPIC");
-    }
-    if (item.texture >= 0 && item.mapping == scene::Mapping::sphere) define("MAPPING_SPHERE");
-    if (item.texture >= 0 && item.mapping == scene::Mapping::texgenObject) define("TEXGEN_OBJECT");
-    if (item.texture >= 0 && item.mapping == scene::Mapping::texgenEye) define("TEXGEN_EYE");
-    if (plan.shading == scene::Shading::chess) define("CHESS");
-    if (!plan.lit) {
-        define("UNLIT");
-        return {"model", defines};
-    }
-    if (plan.shading == scene::Shading::flat) define("FLAT");
-    if (plan.shading == scene::Shading::gouraud) define("GOURAUD");
-    if (plan.shading == scene::Shading::phong) define("PHONG");
-    const auto any = [&](auto test) { return std::any_of(lights.begin(), lights.end(), test); };
-    if (any([](const EyeLight& l) { return l.position.w != 0.0F; })) define("POSITIONAL");
-    if (any([](const EyeLight& l) { return l.spot.w > -2.0F; })) define("SPOT");
-    const bool shiny = item.specular != glm::vec3(0.0F) && any([](const EyeLight& l) {
-                           return glm::vec3(l.specular) != glm::vec3(0.0F);
-                       });
-    if (shiny) define("SPECULAR");
-    if (shiny && plan.viewer == scene::Viewer::local) define("LOCAL_VIEWER");
-    if (shiny && plan.specular == scene::Specular::separate && item.texture >= 0)
-        define("SEPARATE_SPECULAR");
-    return {"model", defines};
-}
-
-void Painter::State::setLights(const std::vector<EyeLight>& lights, GLuint buffer,
-                               const LinkedProgram& program) {
-    api.BindBufferBase(GL_UNIFORM_BUFFER, kLightsBinding, buffer);
-    if (program.lightCount >= 0)
-        api.Uniform1i(program.lightCount, static_cast<GLint>(lights.size()));
+void Painter::State::setLights(const DrawItem& item, int count, const LinkedProgram& program) {
+    if (count == 0) return;
+    const auto set = static_cast<std::size_t>(item.lightSet);
+    api.BindBufferBase(GL_UNIFORM_BUFFER, kLightsBinding, lightBuffers[set].name());
+    if (program.lightCount >= 0) api.Uniform1i(program.lightCount, count);
 }
 
 void Painter::State::setMaterial(const FramePlan& plan, const DrawItem& item,
                                  const LinkedProgram& program) {
-    if (plan.layer == Layer::id) {
-        const glm::vec3 color(static_cast<float>((item.id >> 16) & 255U),
-                              static_cast<float>((item.id >> 8) & 255U),
-                              static_cast<float>(item.id & 255U));
-        const glm::vec3 unit = color / 255.0F;
-        return api.Uniform3fv(program.plainColor, 1, glm::value_ptr(unit));
-    }
     const glm::vec3 base = item.emissive + item.ambient * plan.globalAmbient;
-    api.Uniform3fv(program.plainColor, 1, glm::value_ptr(item.diffuse));
     api.Uniform3fv(program.materialDiffuse, 1, glm::value_ptr(item.diffuse));
     api.Uniform3fv(program.materialBase, 1, glm::value_ptr(base));
     api.Uniform3fv(program.materialAmbient, 1, glm::value_ptr(item.ambient));
     api.Uniform3fv(program.materialSpecular, 1, glm::value_ptr(item.specular));
     api.Uniform1f(program.materialShininess, item.shininess);
-    if (item.mapping == scene::Mapping::texgenObject || item.mapping == scene::Mapping::texgenEye) {
+    if (program.uvFrom >= 0) api.Uniform4fv(program.uvFrom, 1, glm::value_ptr(item.uvFrom));
+    if (program.mappedFrom >= 0) {
+        const glm::vec3 origin(item.mesh->mesh.origin());
+        api.Uniform3fv(program.mappedFrom, 1, glm::value_ptr(origin));
+    }
+    if (program.planeS >= 0) {
         api.Uniform4fv(program.planeS, 1, glm::value_ptr(item.planeS));
         api.Uniform4fv(program.planeT, 1, glm::value_ptr(item.planeT));
     }
@@ -313,37 +278,41 @@ void Painter::State::drawOne(const DrawItem& item, const GpuMesh& mesh,
                              glm::value_ptr(item.normalFromObject));
     if (item.surface) api.Uniform3fv(program.unitEye, 1, glm::value_ptr(item.surfaceEye));
     if (mesh.indexed)
-        api.DrawElements(GL_TRIANGLES, mesh.count, GL_UNSIGNED_INT, nullptr);
+        api.DrawElements(GL_TRIANGLES, countOf(item), GL_UNSIGNED_INT, firstOf(item));
     else
-        api.DrawArrays(GL_TRIANGLES, 0, mesh.count);
+        api.DrawArrays(GL_TRIANGLES, static_cast<GLint>(item.firstIndex), countOf(item));
 }
 
-void Painter::State::drawItems(const FramePlan& plan, const glm::mat4& clip, int& drawCalls) {
-    const bool wireframe = plan.layer == Layer::color && plan.shading == scene::Shading::wireframe;
-    const bool points = plan.layer == Layer::color && plan.shading == scene::Shading::points;
-    const bool flat = plan.lit && plan.shading == scene::Shading::flat;
-    if (wireframe) api.PolygonMode(GL_FRONT_AND_BACK, GL_LINE);
-    if (points) api.PolygonMode(GL_FRONT_AND_BACK, GL_POINT);
+void Painter::State::drawModels(const FramePlan& plan, const Pass& pass, const PassItem& models,
+                                int& drawCalls) {
+    const glm::mat4 clip(pass.clip);
+    const glm::mat3 worldFromView(glm::transpose(plan.view.rotation));
+    const bool flat = pass.features.has(Feature::flat);
+    api.PolygonMode(GL_FRONT_AND_BACK, modeOf(pass.state.polygons));
     const LinkedProgram* current = nullptr;
     GLuint base = 0;  // of the batch's places
-    for (const Batch& batch : batches.batches) {
-        const DrawItem& first = plan.items[batches.order[batch.first]];
-        const LinkedProgram& program = programs.get(keyOf(plan, first, batch.instanced));
+    for (std::size_t b = 0; b < models.first + models.count; ++b) {
+        const Batch& batch = plan.batches.batches[b];
+        const GLuint places = base;
+        if (batch.instanced) base += static_cast<GLuint>(batch.count);
+        if (b < models.first) continue;
+        const DrawItem& first = plan.items[plan.batches.order[batch.first]];
+        const ProgramKey key = keyOf(plan, pass, batch);
+        const LinkedProgram& program = programs.get(key);
         if (&program != current) {
             current = &program;
             api.UseProgram(program.program.name());
             api.UniformMatrix4fv(program.clipFromView, 1, GL_FALSE, glm::value_ptr(clip));
             if (program.worldFromView >= 0)
                 api.UniformMatrix3fv(program.worldFromView, 1, GL_FALSE,
-                                     glm::value_ptr(plan.worldFromView));
+                                     glm::value_ptr(worldFromView));
             if (program.nearest >= 0)
-                api.Uniform1f(program.nearest, static_cast<float>(plan.camera.near));
+                api.Uniform1f(program.nearest, static_cast<float>(plan.view.near));
         }
-        if (first.surface) setSurface(api, first, program);
+        if (key.features.has(Feature::surface)) setSurface(api, first, program);
+        api.Uniform3fv(program.plainColor, 1, glm::value_ptr(batch.plainColor));
         setMaterial(plan, first, program);
-        const auto set = static_cast<std::size_t>(first.lightSet);
-        if (plan.lit && !plan.lightSets[set].empty())
-            setLights(plan.lightSets[set], lightBuffers[set].name(), program);
+        setLights(first, key.count, program);
         if (first.texture >= 0)
             api.BindTexture(GL_TEXTURE_2D, textureNames[static_cast<std::size_t>(first.texture)]);
         api.FrontFace(first.mirrored ? GL_CW : GL_CCW);
@@ -352,61 +321,59 @@ void Painter::State::drawItems(const FramePlan& plan, const glm::mat4& clip, int
         if (batch.instanced) {
             const auto count = static_cast<GLsizei>(batch.count);
             if (mesh.indexed)
-                api.DrawElementsInstancedBaseInstance(GL_TRIANGLES, mesh.count, GL_UNSIGNED_INT,
-                                                      nullptr, count, base);
+                api.DrawElementsInstancedBaseInstance(GL_TRIANGLES, countOf(first), GL_UNSIGNED_INT,
+                                                      firstOf(first), count, places);
             else
-                api.DrawArraysInstancedBaseInstance(GL_TRIANGLES, 0, mesh.count, count, base);
-            base += static_cast<GLuint>(batch.count);
+                api.DrawArraysInstancedBaseInstance(GL_TRIANGLES,
+                                                    static_cast<GLint>(first.firstIndex),
+                                                    countOf(first), count, places);
             ++drawCalls;
             continue;
         }
         for (std::size_t i = batch.first; i < batch.first + batch.count; ++i, ++drawCalls)
-            drawOne(plan.items[batches.order[i]], mesh, program);
+            drawOne(plan.items[plan.batches.order[i]], mesh, program);
     }
     api.FrontFace(GL_CCW);
-    if (wireframe || points) api.PolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+    api.PolygonMode(GL_FRONT_AND_BACK, GL_FILL);
 }
 
-void Painter::State::drawLines(const std::vector<LineVertex>& lines, const glm::mat4& clip,
+void Painter::State::drawLines(const FramePlan& plan, const Pass& pass, const PassItem& lines,
                                int& drawCalls) {
-    if (lines.empty()) return;
-    const LinkedProgram& program = programs.get({"line", ""});
+    const glm::mat4 clip(pass.clip);
+    const LinkedProgram& program = programs.get({Shaders::line, {}, 0});
     api.UseProgram(program.program.name());
     api.UniformMatrix4fv(program.clipFromView, 1, GL_FALSE, glm::value_ptr(clip));
     api.BindVertexArray(lineArray.name());
     api.BindBuffer(GL_ARRAY_BUFFER, lineBuffer.name());
-    api.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(lines.size() * sizeof(LineVertex)),
-                   lines.data(), GL_STREAM_DRAW);
+    api.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(lines.count * sizeof(LineVertex)),
+                   &plan.lines[lines.first], GL_STREAM_DRAW);
     for (const GLuint location : {0U, 1U}) {
         api.EnableVertexAttribArray(location);
         api.VertexAttribPointer(location, 3, GL_FLOAT, GL_FALSE, sizeof(LineVertex),
                                 reinterpret_cast<const void*>(location * sizeof(glm::vec3)));
     }
-    api.DrawArrays(GL_LINES, 0, static_cast<GLsizei>(lines.size()));
+    api.DrawArrays(GL_LINES, 0, static_cast<GLsizei>(lines.count));
     ++drawCalls;
 }
 
-/// Where no model is: the depth is still that of the clear, which nothing that is drawn has. The
-/// skybox hides the background's picture.
-void Painter::State::drawBackdrop(const FramePlan& plan, int& drawCalls) {
-    if (!hasBackdrop(plan)) return;
+/// Where nothing is drawn yet: the depth is still that of the clear, which nothing that is drawn
+/// has.
+void Painter::State::drawBackdrop(const FramePlan& plan, const PassItem& backdrop, int& drawCalls) {
+    const GLuint texture = textureNames[static_cast<std::size_t>(backdrop.texture)];
     api.BindVertexArray(emptyArray.name());
     api.DepthFunc(GL_EQUAL);
     api.DepthMask(GL_FALSE);
-    if (plan.skyboxTexture >= 0) {
-        const LinkedProgram& program = programs.get({"window", "#define SKYBOX\n"});
+    if (backdrop.kind == PassItem::Kind::skybox) {
+        const LinkedProgram& program = programs.get({Shaders::window, {Feature::skybox}, 0});
+        const glm::mat3 worldFromView(glm::transpose(plan.view.rotation));
+        const glm::vec2 tangents(plan.view.tanHalfFov);
         api.UseProgram(program.program.name());
-        api.UniformMatrix3fv(program.worldFromView, 1, GL_FALSE,
-                             glm::value_ptr(plan.worldFromView));
-        const double up = std::tan(glm::radians(plan.camera.fovDeg) / 2.0);
-        api.Uniform2f(program.tangents, static_cast<float>(up * plan.width / plan.height),
-                      static_cast<float>(up));
-        api.BindTexture(GL_TEXTURE_CUBE_MAP,
-                        textureNames[static_cast<std::size_t>(plan.skyboxTexture)]);
+        api.UniformMatrix3fv(program.worldFromView, 1, GL_FALSE, glm::value_ptr(worldFromView));
+        api.Uniform2f(program.tangents, tangents.x, tangents.y);
+        api.BindTexture(GL_TEXTURE_CUBE_MAP, texture);
     } else {
-        api.UseProgram(programs.get({"window", ""}).program.name());
-        api.BindTexture(GL_TEXTURE_2D,
-                        textureNames[static_cast<std::size_t>(plan.backgroundTexture)]);
+        api.UseProgram(programs.get({Shaders::window, {}, 0}).program.name());
+        api.BindTexture(GL_TEXTURE_2D, texture);
     }
     api.DrawArrays(GL_TRIANGLES, 0, 3);
     ++drawCalls;
@@ -416,60 +383,86 @@ void Painter::State::drawBackdrop(const FramePlan& plan, int& drawCalls) {
 
 Target::Resolver Painter::State::resolver(int samples) {
     if (samples <= 1) return {};
-    const ProgramKey key{"window", "#define RESOLVE " + std::to_string(samples) + '\n'};
+    const ProgramKey key{Shaders::window, {Feature::resolve}, samples};
     return {programs.get(key).program.name(), emptyArray.name()};
 }
 
-void Painter::State::drawPass(const FramePlan& plan, const glm::dvec2& offset, int& drawCalls) {
-    const glm::dvec2 window(plan.width, plan.height);
-    const glm::mat4 clip(clipFromView(plan.camera, window.x / window.y, 2.0 * offset / window));
+/// Binds the pass's target, made anew where the last pass had another.
+void Painter::State::begin(const FramePlan& plan, const Pass& pass) {
+    const Target::Format format{plan.view.size.x, plan.view.size.y, pass.target.samples,
+                                pass.target.wide};
+    if (!target || target->format() != format) {
+        target.reset();  // the old one first: two large ones need not fit
+        target.emplace(api, format, facts.packInvert);
+    }
     target->bind();
-    // Before a backdrop every sample is drawn.
-    if (!hasBackdrop(plan)) api.ClearBufferfv(GL_COLOR, 0, glm::value_ptr(plan.background));
+    (pass.state.eachSample ? api.Enable : api.Disable)(GL_SAMPLE_SHADING);
+}
+
+void Painter::State::drawPass(const FramePlan& plan, const Pass& pass, int& drawCalls) {
+    begin(plan, pass);
+    if (pass.target.clearColor)
+        api.ClearBufferfv(GL_COLOR, 0, glm::value_ptr(*pass.target.clearColor));
     constexpr float kFarthest = 0.0F;  // reversed depth
-    api.ClearBufferfv(GL_DEPTH, 0, &kFarthest);
-    drawLines(plan.lines, clip, drawCalls);
-    drawItems(plan, clip, drawCalls);
-    drawBackdrop(plan, drawCalls);
-    api.Disable(GL_DEPTH_TEST);
-    drawLines(plan.overlays, clip, drawCalls);
+    if (pass.target.clearDepth) api.ClearBufferfv(GL_DEPTH, 0, &kFarthest);
+    (pass.state.depthTest ? api.Enable : api.Disable)(GL_DEPTH_TEST);
+    for (const PassItem& item : pass.items) {
+        switch (item.kind) {
+            case PassItem::Kind::models:
+                drawModels(plan, pass, item, drawCalls);
+                break;
+            case PassItem::Kind::lines:
+                drawLines(plan, pass, item, drawCalls);
+                break;
+            case PassItem::Kind::skybox:
+            case PassItem::Kind::picture:
+                drawBackdrop(plan, item, drawCalls);
+                break;
+        }
+    }
     api.Enable(GL_DEPTH_TEST);
 }
 
-void Painter::draw(const FramePlan& plan, const OpenTexture& open, Image& image, int& drawCalls,
-                   Timings& timings) {
+void Painter::draw(const FramePlan& plan, const OpenTexture& open, image::Image& image,
+                   int& drawCalls, Timings& timings, Diagnostics& warnings) {
     State& s = *state_;
     s.context->makeCurrent();
+    s.restoreState();
     s.prepare(plan, open);
-    auto begin = std::chrono::steady_clock::now();
-    const Sampling sampled = chooseSampling(plan.samples, s.mostSamples);
-    const Target::Resolver resolve = s.resolver(sampled.samples);
+    throwOnError(s.api, "preparing");
+    for (std::size_t i = 0; i < plan.textures.size(); ++i)
+        for (const TextureNote& note : s.textureNotes[i])
+            warnings.push_back(warningOf(note, plan.textures[i]));
+    const auto start = std::chrono::steady_clock::now();
+    bool transparent = false;
     std::vector<std::uint16_t> part;
     std::vector<std::uint32_t> sum;
-    for (int pass = 0; pass < sampled.passes; ++pass) {
-        s.drawPass(plan, passOffset(pass, sampled.passes), drawCalls);
+    std::uint32_t parts = 0;
+    for (const Pass& pass : plan.passes) {
+        s.drawPass(plan, pass, drawCalls);
+        transparent |= pass.target.clearColor && pass.target.clearColor->a < 1.0F;
+        if (pass.target.output == PassOutput::none) continue;
         s.api.Finish();  // else the time of drawing would be counted as reading
         const auto drawn = std::chrono::steady_clock::now();
-        if (sampled.passes == 1) {
+        const Target::Resolver resolve = s.resolver(pass.target.samples);
+        if (pass.target.output == PassOutput::image) {
             s.target->read(resolve, image);
         } else {
             s.target->read(resolve, part);
             sum.resize(part.size());
             for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += part[i];
+            ++parts;
         }
         timings.readbackMs += sinceMs(drawn);
     }
-    if (sampled.passes > 1) {
-        image.width = plan.width;
-        image.height = plan.height;
-        takeMean(sum, 257U * static_cast<std::uint32_t>(sampled.passes), image);
+    if (parts > 0) {
+        image.width = plan.view.size.x;
+        image.height = plan.view.size.y;
+        takeMean(sum, 257U * parts, image);
     }
-    const GLenum error = s.api.GetError();
-    if (error == GL_OUT_OF_MEMORY) throw std::bad_alloc();
-    if (error != GL_NO_ERROR)
-        throw std::runtime_error("GL error " + std::to_string(error) + " while drawing");
-    if (plan.background.a < 1.0F) unpremultiply(image);
-    timings.drawMs += sinceMs(begin) - timings.readbackMs;
+    throwOnError(s.api, "drawing");
+    if (transparent) unpremultiply(image);
+    timings.drawMs += sinceMs(start) - timings.readbackMs;
 }
 
 }  // namespace farol::render::gl

@@ -2,18 +2,17 @@
 
 #include <memory>
 
+#include "image/image.h"
 #include "render/gl/context.h"
-#include "render/image.h"
-#include "render/plan.h"
-#include "render/texture_levels.h"
+#include "render/plan/frame_plan.h"
+#include "render/plan/texture_levels.h"
 
 namespace farol::render::gl {
 
-/// Draws frame plans in one GL context. Belongs to the thread that made it.
+/// Executes the passes of frame plans in one GL context. Belongs to the thread that made it.
 class Painter {
   public:
-    /// Throws std::runtime_error when there is no GL.
-    Painter();
+    explicit Painter(std::unique_ptr<Context> context);
     ~Painter();
     Painter(const Painter&) = delete;
     Painter& operator=(const Painter&) = delete;
@@ -23,11 +22,12 @@ class Painter {
     };
     /// The picture of a plan, straight alpha, into `image`, whose memory is used again where it is
     /// as large; counts draw calls into `drawCalls`. `open` is
-    /// called for textures that are not in GL memory yet.
-    void draw(const FramePlan& plan, const OpenTexture& open, Image& image, int& drawCalls,
-              Timings& timings);
+    /// called for textures that are not in GL memory yet. Adds warnings about textures' files.
+    /// GL errors and state that an earlier plan left have no effect on this one.
+    void draw(const FramePlan& plan, const OpenTexture& open, image::Image& image, int& drawCalls,
+              Timings& timings, Diagnostics& warnings);
 
-    const std::string& description() const;
+    const GlFacts& facts() const;
 
   private:
     struct State;

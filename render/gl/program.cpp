@@ -3,8 +3,10 @@
 #include <array>
 #include <span>
 #include <stdexcept>
+#include <string>
+#include <string_view>
 
-#include "scene/embedded.h"
+#include "core/embedded.h"
 
 namespace farol {
 std::span<const EmbeddedFile> shaderFiles();
@@ -12,6 +14,69 @@ std::span<const EmbeddedFile> shaderFiles();
 
 namespace farol::render::gl {
 namespace {
+
+struct FeatureName {
+    Feature feature;
+    const char* name;
+    bool counted = false;
+};
+
+/// Features as the shaders know them, in the order of the enum.
+constexpr std::array<FeatureName, kFeatures> kNames{{
+    {Feature::layerId, "LAYER_ID"},
+    {Feature::layerNormal, "LAYER_NORMAL"},
+    {Feature::layerDepth, "LAYER_DEPTH"},
+    {Feature::lightCount, "LIGHT_COUNT", true},
+    {Feature::unlit, "UNLIT"},
+    {Feature::chess, "CHESS"},
+    {Feature::flat, "FLAT"},
+    {Feature::gouraud, "GOURAUD"},
+    {Feature::phong, "PHONG"},
+    {Feature::positional, "POSITIONAL"},
+    {Feature::spot, "SPOT"},
+    {Feature::specular, "SPECULAR"},
+    {Feature::localViewer, "LOCAL_VIEWER"},
+    {Feature::separateSpecular, "SEPARATE_SPECULAR"},
+    {Feature::textured, "TEXTURED"},
+    {Feature::filterMipmap, "FILTER_MIPMAP"},
+    {Feature::filterAnisotropic, "FILTER_ANISOTROPIC"},
+    {Feature::mappingSphere, "MAPPING_SPHERE"},
+    {Feature::texgenObject, "TEXGEN_OBJECT"},
+    {Feature::texgenEye, "TEXGEN_EYE"},
+    {Feature::vertexColor, "VERTEX_COLOR"},
+    {Feature::surface, "SURFACE"},
+    {Feature::surfaceCaps, "SURFACE_CAPS"},
+    {Feature::surfaceProfile, "SURFACE_PROFILE"},
+    {Feature::surfaceWrapsV, "SURFACE_WRAPS_V"},
+    {Feature::surfaceRay, "SURFACE_RAY"},
+    {Feature::surfaceTwoSteps, "SURFACE_TWO_STEPS"},
+    {Feature::surfaceTurnFromX, "SURFACE_TURN_FROM_X"},
+    {Feature::surfaceDiscUv, "SURFACE_DISC_UV"},
+    {Feature::instanced, "INSTANCED"},
+    {Feature::skybox, "SKYBOX"},
+    {Feature::resolve, "RESOLVE", true},
+}};
+constexpr bool isInOrder() {
+    for (std::size_t i = 0; i < kNames.size(); ++i)
+        if (static_cast<std::size_t>(kNames[i].feature) != i) return false;
+    return true;
+}
+static_assert(isInOrder());
+
+std::string definesOf(const ProgramKey& key) {
+    std::string text;
+    for (const FeatureName& row : kNames) {
+        if (!key.features.has(row.feature)) continue;
+        text += std::string("#define ") + row.name;
+        if (row.counted) text += ' ' + std::to_string(key.count);
+        text += '\n';
+    }
+    return text;
+}
+
+std::string stem(Shaders shaders) {
+    return shaders == Shaders::model ? "model" : shaders == Shaders::line ? "line" : "window";
+}
 
 std::string_view shaderText(const std::string& name) {
     for (const EmbeddedFile& file : shaderFiles())
@@ -22,18 +87,18 @@ std::string_view shaderText(const std::string& name) {
 /// Deletes the shader once it is linked (or not).
 class Shader {
   public:
-    Shader(const Api& api, GLenum type, const std::string& name, const std::string& defines)
+    Shader(const Api& api, GLenum type, const std::string& name, const std::string& defines,
+           std::string_view surfaceKind)
         : api_(api), shader_(api.CreateShader(type)) {
         const std::string head = "#version 450 core\n" + defines;
         const std::string_view common =
             name.starts_with("model") ? shaderText("common.glsl") : std::string_view{};
-        const std::string_view surface =
-            name == "model.frag" ? shaderText("surface.glsl") : std::string_view{};
-        const std::string_view texture =
-            name == "model.frag" ? shaderText("texture.glsl") : std::string_view{};
-        const std::string_view body = shaderText(name);
-        const std::string text = head + std::string(common) + std::string(texture) +
-                                 std::string(surface) + std::string(body);
+        std::string parts;
+        if (name == "model.frag")
+            parts.append(shaderText("texture.glsl"))
+                .append(shaderText("surface.glsl"))
+                .append(surfaceKind);
+        const std::string text = head + std::string(common) + parts + std::string(shaderText(name));
         const GLchar* const data = text.data();
         const auto size = static_cast<GLint>(text.size());
         api_.ShaderSource(shader_, 1, &data, &size);
@@ -60,9 +125,10 @@ class Shader {
 
 const LinkedProgram& ProgramCache::get(const ProgramKey& key) {
     if (const auto found = programs_.find(key); found != programs_.end()) return found->second;
+    const std::string name = stem(key.shaders), defines = definesOf(key);
     // The block's binding stands in the text, so that no call is needed to set it.
-    const Shader vertex(api_, GL_VERTEX_SHADER, key.stage + ".vert", key.defines);
-    const Shader fragment(api_, GL_FRAGMENT_SHADER, key.stage + ".frag", key.defines);
+    const Shader vertex(api_, GL_VERTEX_SHADER, name + ".vert", defines, {});
+    const Shader fragment(api_, GL_FRAGMENT_SHADER, name + ".frag", defines, key.surfaceKind);
     LinkedProgram linked;
     linked.program = Program(api_);
     const GLuint program = linked.program.name();
@@ -74,9 +140,9 @@ const LinkedProgram& ProgramCache::get(const ProgramKey& key) {
     if (!done) {
         std::array<GLchar, 2048> log{};
         api_.GetProgramInfoLog(program, static_cast<GLsizei>(log.size()), nullptr, log.data());
-        throw std::runtime_error("program " + key.stage + " does not link: " + log.data());
+        throw std::runtime_error("program " + name + " does not link: " + log.data());
     }
-    const auto at = [&](const char* name) { return api_.GetUniformLocation(program, name); };
+    const auto at = [&](const char* uniform) { return api_.GetUniformLocation(program, uniform); };
     linked.viewFromObject = at("viewFromObject");
     linked.normalFromObject = at("normalFromObject");
     linked.clipFromView = at("clipFromView");
@@ -98,6 +164,8 @@ const LinkedProgram& ProgramCache::get(const ProgramKey& key) {
     linked.plainColor = at("plainColor");
     linked.planeS = at("planeS");
     linked.planeT = at("planeT");
+    linked.uvFrom = at("uvFrom");
+    linked.mappedFrom = at("mappedFrom");
     linked.nearest = at("nearest");
     linked.tangents = at("tangents");
     return programs_.emplace(key, std::move(linked)).first->second;

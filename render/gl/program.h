@@ -1,20 +1,24 @@
 #pragma once
 
+#include <compare>
 #include <map>
-#include <string>
+#include <string_view>
 
 #include "render/gl/objects.h"
+#include "render/plan/features.h"
 
 namespace farol::render::gl {
 
-/// What a program is made for: the text of its #defines, one "#define NAME [VALUE]" a line. Only
-/// what a draw needs is compiled into its shader.
+/// Shader files of a program.
+enum class Shaders { model, line, window };
+
+/// Features of a program: only those that a draw needs are compiled into its shader.
 struct ProgramKey {
-    std::string stage;  ///< "model", "line" or "window": the shader files' name
-    std::string defines;
-    bool operator<(const ProgramKey& other) const {
-        return stage != other.stage ? stage < other.stage : defines < other.defines;
-    }
+    Shaders shaders = Shaders::model;
+    FeatureSet features;
+    int count = 0;                      ///< of what a counted feature counts
+    std::string_view surfaceKind = {};  ///< generator::SurfaceKind::glsl
+    auto operator<=>(const ProgramKey&) const = default;
 };
 
 /// A linked program and where its uniforms are (-1: not used).
@@ -24,7 +28,7 @@ struct LinkedProgram {
     GLint materialDiffuse, materialBase, materialAmbient, materialSpecular, materialShininess;
     GLint unitFromObject, unitEye, surfaceLengths, surfaceForm, surfaceUv, surfaceDiscs, balance,
         seenFrom;
-    GLint lightCount, plainColor, planeS, planeT, nearest, tangents;
+    GLint lightCount, plainColor, planeS, planeT, uvFrom, mappedFrom, nearest, tangents;
 };
 
 /// Programs by key, compiled once. Throws std::runtime_error with the compiler's log: a shader

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "image/image.h"
 #include "render/gl/objects.h"
-#include "render/image.h"
 
 namespace farol::render::gl {
 
@@ -12,15 +12,16 @@ namespace farol::render::gl {
 /// samples the picture they are resolved into. (OSMesa's own depth buffer has 24 bits at most.)
 class Target {
   public:
-    /// 8 bits a channel for a picture in one pass; 16 where passes are added up, so that they are
-    /// rounded to levels once.
-    enum class Channels { bits8, bits16 };
+    struct Format {
+        int width = 0, height = 0;
+        int samples = 1;
+        bool wide = false;  ///< 16 bits a channel, else 8
+        bool operator==(const Format&) const = default;
+    };
 
-    /// samples: 1, or what GL gives for antialiasing. Throws std::bad_alloc when GL refuses.
-    Target(const Api& api, int width, int height, int samples, Channels channels);
-    bool fits(int width, int height, int samples, Channels channels) const {
-        return width == width_ && height == height_ && samples == samples_ && channels == channels_;
-    }
+    /// `packInvert`: of GlFacts. Throws std::bad_alloc when GL refuses.
+    Target(const Api& api, const Format& format, bool packInvert);
+    const Format& format() const { return format_; }
     /// The program that makes the mean of a pixel's samples, and an array without attributes.
     /// (glBlitFramebuffer does the same, but Mesa keeps no compiled code of its shader: it took
     /// 25 ms of every new process.)
@@ -28,22 +29,22 @@ class Target {
         GLuint program = 0, emptyArray = 0;
     };
 
-    int samples() const { return samples_; }
     void bind() const;
     /// Makes the picture of the samples, where there are samples.
     void resolve(const Resolver& resolver) const;
     /// Resolves and reads the picture of 8 bits a channel, top row first, premultiplied alpha as
     /// drawn.
-    void read(const Resolver& resolver, Image& image) const;
+    void read(const Resolver& resolver, image::Image& image) const;
     /// The same of 16 bits a channel, 0..65535.
     void read(const Resolver& resolver, std::vector<std::uint16_t>& pixels) const;
 
   private:
-    void readAs(const Resolver& resolver, GLenum type, void* pixels) const;
+    template <typename Channel>
+    void readAs(const Resolver& resolver, GLenum type, std::vector<Channel>& pixels) const;
 
     const Api& api_;
-    int width_, height_, samples_;
-    Channels channels_;
+    Format format_;
+    bool packInvert_;
     Framebuffer drawn_, resolved_;
     Texture samplesOf_;  ///< the colour, where there are samples
     Renderbuffer color_, depth_;

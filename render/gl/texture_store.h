@@ -2,36 +2,45 @@
 
 #include <string>
 
+#include "core/lru_cache.h"
 #include "render/gl/objects.h"
-#include "render/lru.h"
-#include "render/texture_levels.h"
+#include "render/gl_facts.h"
+#include "render/plan/texture_levels.h"
 
 namespace farol::render::gl {
 
 /// Textures by content and filter, kept within a bound of bytes, least recently used first out.
-/// 2D textures repeat in u and v, cube maps are clamped and seamless.
+/// 2D textures repeat in u and v unless they are clamped, cube maps are clamped and seamless.
 class TextureStore {
   public:
-    TextureStore(const Api& api, std::size_t maxBytes);
-    /// The texture's name, or 0 where it is not here.
-    GLuint find(const TextureRef& ref);
+    /// `facts` outlives the store.
+    TextureStore(const Api& api, const GlFacts& facts, std::size_t maxBytes)
+        : api_(api), facts_(facts), textures_(maxBytes) {}
+    struct Entry {
+        Texture texture;
+        std::vector<TextureNote> notes;
+    };
+    /// Null where it is not here. Valid until the next put().
+    const Entry* find(const TextureRef& ref);
     struct Reserved {
         Texture texture;
         int width = 0, height = 0;
     };
-    /// Memory and filters for one that is not here and no cube map, before its texels are known.
+    /// Memory and filters for one that is not here and no cube map, before its texels are known;
+    /// for the size that is left of `width` x `height` within the GL's.
     Reserved reserve(const TextureRef& ref, int width, int height);
-    /// Uploads one that is not here into what was reserved for it, if it was; its name. The `keep`
+    /// Uploads one that is not here into what was reserved for it, if it was. Throws where
+    /// the GL refuses it. The `keep`
     /// used last stay, whatever they take.
-    GLuint put(const TextureRef& ref, Reserved reserved, const TextureLevels& levels,
-               std::size_t keep);
+    const Entry& put(const TextureRef& ref, Reserved reserved, TextureLevels levels,
+                     std::size_t keep);
 
   private:
     void uploadFaces(const Texture& texture, const TextureLevels& faces);
 
     const Api& api_;
-    float maxAnisotropy_ = 1.0F;
-    LruCache<std::string, Texture> textures_;
+    const GlFacts& facts_;
+    LruCache<std::string, Entry> textures_;
 };
 
 }  // namespace farol::render::gl

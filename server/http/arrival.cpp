@@ -1,8 +1,23 @@
 #include "server/http/arrival.h"
 
+#include <string_view>
 #include <utility>
 
+#include "server/messages.h"
+
 namespace farol::server::http {
+namespace {
+
+// A blank line or two before a request are allowed (RFC 9112 section 2.2).
+constexpr std::size_t kMaxBlankLines = 8;
+
+std::size_t blankLines(std::string_view text) {
+    std::size_t count = 0;
+    while (text.substr(2 * count).starts_with("\r\n")) ++count;
+    return count;
+}
+
+}  // namespace
 
 Arrival::State Arrival::state() const {
     if (!begun_) return State::nothing;
@@ -16,16 +31,25 @@ void Arrival::refuse(Refusal refusal) {
 }
 
 void Arrival::readHead(std::string& in) {
-    // A blank line or two before a request are allowed (RFC 9112 section 2.2).
-    while (in.starts_with("\r\n")) in.erase(0, 2);
+    if (const std::size_t blank = blankLines(in); blank > 0) {
+        in.erase(0, 2 * blank);
+        blankLines_ += blank;
+        if (blankLines_ > kMaxBlankLines) {
+            begun_ = true;
+            head_ = checkHead("");
+            refuse({400, message<"http.syntax/blank-lines">()});
+            std::string().swap(in);
+            return;
+        }
+    }
     if (in.empty()) return;
     if (!std::exchange(begun_, true)) since_ = Clock::now();
     const std::size_t end = in.find("\r\n\r\n", searched_);
     if (end == std::string::npos ? in.size() >= kMaxHead : end + 4 > kMaxHead) {
         head_ = checkHead(in);
         refuse(in.find("\r\n") == std::string::npos
-                   ? Refusal{414, "http.uri-too-long", "The address is too long."}
-                   : Refusal{431, "http.head", "The headers are too large."});
+                   ? Refusal{414, message<"http.uri-too-long">("max"_arg = kMaxHead)}
+                   : Refusal{431, message<"http.head">("max"_arg = kMaxHead)});
         std::string().swap(in);
         return;
     }
@@ -47,7 +71,7 @@ void Arrival::feed(std::string& in) {
     if (!head_) readHead(in);
     if (state() == State::body && !in.empty()) {
         in.erase(0, body_->feed(in));
-        sayContinue_ = false;  // it did not wait to be told
+        sayContinue_ = false;  // it did not wait for "100 Continue"
     }
     // A connection that waits holds no buffer.
     if (in.empty()) std::string().swap(in);
@@ -56,7 +80,7 @@ void Arrival::feed(std::string& in) {
 void Arrival::giveUp(std::string& in) {
     if (state() == State::head) {
         head_ = checkHead(in);
-        refuse({408, "http.timeout", "The request took too long to arrive."});
+        refuse({408, message<"http.timeout">()});
         std::string().swap(in);
     } else if (body_) {
         body_->giveUp();

@@ -32,7 +32,7 @@ class Arrival {
     State state() const;
     /// Since when its head, or its body, is under way.
     Clock::time_point since() const { return since_; }
-    /// True once, when the client waits to be told to send its body.
+    /// True once, if the client waits for "100 Continue" before it sends its body.
     bool mustSayContinue();
     /// The request, which is whole; the next one can be fed.
     Incoming take();
@@ -45,7 +45,8 @@ class Arrival {
     const Handler* handler_;
     std::optional<Head> head_;
     std::optional<BodyReader> body_;
-    std::size_t searched_ = 0;  ///< of the head, for its end
+    std::size_t searched_ = 0;    ///< of the head, for its end
+    std::size_t blankLines_ = 0;  ///< before the head
     bool begun_ = false, sayContinue_ = false;
     Clock::time_point since_, headAt_;
 };

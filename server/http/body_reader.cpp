@@ -7,6 +7,9 @@ namespace farol::server::http {
 namespace {
 // Of a line that says a chunk's size, with its extension.
 constexpr std::size_t kMaxLine = 256;
+constexpr std::size_t kMaxSizeDigits = 16;
+// Of all extensions and leading zeros together: a body costs no more than its bytes deserve.
+constexpr std::size_t kMaxExtensions = 16 * 1024;
 }  // namespace
 
 BodyReader::BodyReader(std::optional<std::uint64_t> length, std::size_t maxBytes)
@@ -44,11 +47,12 @@ void BodyReader::lineDone() {
     }
     const char* const last = line_.data() + line_.size();
     const auto [end, fault] = std::from_chars(line_.data(), last, left_, 16);
+    extensions_ += line_.size() - std::min(line_.size(), kMaxSizeDigits);
     const bool isSize = fault == std::errc{} && (end == last || *end == ';') && line_[0] != '-';
     if (fault == std::errc::result_out_of_range ||
         (isSize && left_ > maxBytes_ - std::min(maxBytes_, body_.size())))
         state_ = State::tooLarge;
-    else if (!isSize)
+    else if (!isSize || extensions_ > kMaxExtensions)
         state_ = State::broken;
     else
         part_ = left_ > 0 ? Part::data : Part::end;

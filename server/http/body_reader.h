@@ -38,6 +38,7 @@ class BodyReader {
 
     std::string body_, line_;
     std::size_t maxBytes_;
+    std::size_t extensions_ = 0;  ///< bytes of size lines beyond a size
     bool chunked_;
     std::uint64_t left_ = 0;  ///< of the chunk, or of the body
     Part part_;

@@ -8,7 +8,8 @@
 #include <ctime>
 #include <random>
 
-#include "scene/error.h"
+#include "core/error.h"
+#include "server/messages.h"
 
 namespace farol::server::http {
 namespace {
@@ -35,7 +36,7 @@ std::string headerValue(const std::string& value) {
     return std::string(value.begin(), end);
 }
 
-/// What the library reads is the cleaned head, what it writes goes to the link.
+/// The library reads the cleaned head from it, and its output goes to the link.
 class Exchange final : public httplib::Stream {
   public:
     Exchange(Link& link, std::string head) : link_(link), head_(std::move(head)) {}
@@ -51,7 +52,7 @@ class Exchange final : public httplib::Stream {
         link_.put({source, size});
         return link_.isBroken() ? -1 : static_cast<ssize_t>(size);
     }
-    // The peer's address is taken from the socket when it is accepted, not here.
+    // The peer's address is read when the socket is accepted, not here.
     void get_remote_ip_and_port(std::string& ip, int& port) const override { none(ip, port); }
     void get_local_ip_and_port(std::string& ip, int& port) const override { none(ip, port); }
     /// Only compared with FD_SETSIZE by the library, which matters to select() and not to us.
@@ -82,10 +83,8 @@ class Arrived final : public Body {
         using State = BodyReader::State;
         const State state = std::exchange(incoming_.bodyState, State::broken);
         if (state == State::tooLarge || incoming_.body.size() > maxBytes)
-            throw Error("limit.body",
-                        "The body is larger than " + std::to_string(maxBytes) + " bytes.");
-        if (state != State::whole)
-            throw Error("http.body", "The body did not arrive as it was announced.");
+            throw Error(message<"limit.body">("max"_arg = maxBytes));
+        if (state != State::whole) throw Error(message<"http.body">());
         return std::move(incoming_.body);
     }
 
@@ -111,9 +110,7 @@ class Connection::Parser final : public httplib::Server {
             const Head& head = incoming_->head;
             Arrived body(*incoming_);
             if (const auto& refusal = head.refusal)
-                answer(
-                    handler_.refuse(head.request, refusal->status, refusal->code, refusal->message),
-                    out);
+                answer(handler_.refuse(head.request, refusal->status, refusal->message), out);
             else
                 answer(handler_.handle(head.request, body), out);
             return HandlerResponse::Handled;
@@ -123,17 +120,15 @@ class Connection::Parser final : public httplib::Server {
                 if (answered_) return HandlerResponse::Unhandled;
                 keep_ = false;
                 const int status = out.status;
-                answer(handler_.refuse(incoming_->head.request, status, "http.syntax",
-                                       "The request could not be read."),
+                answer(handler_.refuse(incoming_->head.request, status,
+                                       message<"http.syntax/request">()),
                        out);
                 return HandlerResponse::Handled;
             }));
         set_exception_handler(
             [this](const httplib::Request&, httplib::Response& out, std::exception_ptr) {
                 keep_ = false;
-                answer(handler_.refuse(incoming_->head.request, 500, "internal",
-                                       "The server met an error of its own."),
-                       out);
+                answer(handler_.refuse(incoming_->head.request, 500, message<"internal">()), out);
             });
         set_post_routing_handler([this](const httplib::Request&, httplib::Response& out) {
             for (const char* name : {"Connection", "Keep-Alive", "Accept-Ranges"})
@@ -155,7 +150,7 @@ class Connection::Parser final : public httplib::Server {
         if (head.request.id.empty()) head.request.id = newRequestId();
         answered_ = false;
         shared_.reset();
-        // What of the body is still under way must not be read as the next request.
+        // The rest of a body must not be read as the next request.
         isCut_ = incoming.bodyState != BodyReader::State::whole ||
                  (head.hasBody() && !head.mayHaveBody());
         keep_ = head.keepAlive && !isCut_ && !head.refusal;
@@ -200,7 +195,8 @@ class Connection::Parser final : public httplib::Server {
             out.headers.emplace("Content-Type", response.contentType);
         out.body = std::move(response.body);
         shared_ = std::move(response.shared);
-        response.set("Content-Length", std::to_string(length));
+        response.logged.emplace(response.logged.begin(), "bytes",
+                                static_cast<std::int64_t>(length));
         response.body.clear();
         last_ = std::move(response);
     }

@@ -29,7 +29,7 @@ class Connection {
     ~Connection();
 
     /// Has the handler answer and puts the answer on the link, which is sent as far as the client
-    /// takes it now. `isClosing` turns true when the client is to be told that no other request
+    /// takes it now. `isClosing` turns true when the response must announce that no other request
     /// will be answered.
     Answered answer(Link& link, Incoming incoming, const std::atomic<bool>& isClosing);
 

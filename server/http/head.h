@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/message.h"
 #include "server/http/message.h"
 
 /// The head of a request (request line and header lines) is checked here before the library
@@ -16,12 +17,12 @@ namespace farol::server::http {
 inline constexpr std::size_t kMaxRequestLine = 8000;
 inline constexpr std::size_t kMaxPath = 1024;
 inline constexpr std::size_t kMaxHead = 32 * 1024;
+inline constexpr std::size_t kMaxHeaderLines = 128;
 
 /// A request that cannot be served, before any handler.
 struct Refusal {
     int status;
-    std::string code;
-    std::string message;
+    Message message;
 };
 
 struct Head {
@@ -32,12 +33,12 @@ struct Head {
     bool chunked = false;
     std::optional<std::uint64_t> contentLength;
     std::optional<Refusal> refusal;  ///< set: do not parse any further
-    std::string cleaned;             ///< what the library is to parse instead
+    std::string cleaned;             ///< the head that the library parses instead
 
     bool hasBody() const { return chunked || contentLength.value_or(0) > 0; }
     /// True if the method makes the library read a body.
     bool mayHaveBody() const;
-    /// A head that was refused for want of a length (411) is taken to announce an empty body.
+    /// A head that was refused for want of a length (411) is treated as announcing an empty body.
     void takeAsEmpty();
 };
 

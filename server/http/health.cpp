@@ -4,15 +4,15 @@
 
 #include <regex>
 
-#include "scene/error.h"
+#include "core/error.h"
+#include "server/messages.h"
 
 namespace farol::server::http {
 
 Health askHealth(const std::string& url, std::chrono::milliseconds patience) {
     static const std::regex kUrl(R"(http://(\[[0-9a-fA-F:.]+\]|[A-Za-z0-9._-]+)(:[0-9]{1,5})?/?)");
     if (url.size() > 512 || !std::regex_match(url, kUrl))
-        throw Error("option.range", url.substr(0, 64) + " is not of the form http://host:port", {},
-                    "URL");
+        throw Error(message<"option.range/health-url">("value"_arg = url), {}, "URL");
     httplib::Client client(url.back() == '/' ? url.substr(0, url.size() - 1) : url);
     client.set_connection_timeout(patience);
     client.set_read_timeout(patience);

@@ -15,7 +15,7 @@ class Link {
     enum class Got { bytes, nothing, closed };
     /// Adds some of what is there now to in().
     Got receive();
-    /// What has arrived and nobody has taken off its front yet.
+    /// Bytes that have arrived and are not consumed yet.
     std::string& in() { return in_; }
 
     /// To be sent after what was put before: large pieces at once as far as the client takes them,
@@ -26,7 +26,7 @@ class Link {
     void hold() { held_ = true; }
     void release() { held_ = false; }
     bool isHeld() const { return held_; }
-    /// What is pending will not be sent any more.
+    /// Drops the pending bytes: they are not sent any more.
     void abandon();
     bool isPending() const { return sent_ < out_.size(); }
     bool isBroken() const { return broken_; }

@@ -30,9 +30,10 @@ struct ListenOptions {
     std::string host = "127.0.0.1";
     int port = 8080;                              ///< 0: any free port
     int threads = 32;                             ///< requests handled at once
-    int maxConnections = 1024;                    ///< more are answered 503 and closed
+    int maxConnections = 1024;                    ///< beyond, who waits longest is displaced
+    int connectionsPerClient = 0;                 ///< at once; 0: maxConnections
     std::chrono::milliseconds keepAlive{15'000};  ///< for a connection without a request
-    /// Of memory for requests that arrive and answers that are taken slowly; beyond, the slowest
+    /// Memory for arriving requests and slowly read responses; beyond it, the slowest
     /// connections are closed.
     std::size_t bufferBytes = std::size_t{256} << 20U;
     Timeouts timeouts;
@@ -42,7 +43,8 @@ struct ListenOptions {
 /// whole requests to threads that handle them. So neither a client that is idle, nor one that
 /// sends slowly, nor one that does not read its answers holds a thread; the next request of a
 /// connection is handled when the answer before it has left. All queues are bounded by
-/// maxConnections, all buffers together by bufferBytes.
+/// maxConnections, all buffers together by bufferBytes. When all places are in use, the client with
+/// the most connections without a request loses the one that has waited longest.
 class Listener {
   public:
     /// Binds and listens. Throws std::runtime_error that says why it cannot.
@@ -53,6 +55,8 @@ class Listener {
 
     int port() const { return port_; }
     void start();
+    /// Every answer from here on is the last one of its connection.
+    void drain() { closing_ = true; }
     /// Takes no new connection, lets the requests that have begun end, their answers leave within
     /// the grace, and closes all.
     void stop();
@@ -63,20 +67,33 @@ class Listener {
     enum class Phase { idle, receiving, active, holding, sending, lingering };
     struct Client {
         Client(int fd, const Handler& handler, std::string address)
-            : link(fd), arrival(handler), remoteAddress(std::move(address)) {}
+            : link(fd),
+              arrival(handler),
+              remoteAddress(std::move(address)),
+              network(clientOfAddress(remoteAddress)) {}
+        /// No request of it is complete: closing it loses nothing that cannot be sent again.
+        bool isWaiting() const;
         Link link;
         Arrival arrival;
         std::optional<Answered> answered;  ///< not reported yet
-        std::string remoteAddress;
-        std::size_t held = 0;     ///< as counted in buffered_
-        std::size_t drained = 0;  ///< while lingering
+        const std::string remoteAddress;
+        const std::string network;  ///< for which its connections count
+        std::size_t held = 0;       ///< as counted in buffered_
+        std::size_t drained = 0;    ///< while lingering
+        bool hasAsked = false;      ///< a request of it has been answered
         Phase phase = Phase::idle;
         Clock::time_point since, until;  ///< of the phase
     };
 
     void moveLoop();
     bool isOver(Clock::time_point stoppedAt);
-    void acceptAll();
+    void acceptSome();
+    void admit(int fd, std::string address);
+    bool makeRoom(const std::string& network);
+    Client* displaceable(const std::string& network) const;
+    void displace(Client& client);
+    void refuse(int fd, long& counter);
+    void accept(bool isOn);
     void look(int fd);
     void receive(Client& client);
     void linger(Client& client);
@@ -84,7 +101,7 @@ class Listener {
     void relieve();
     void giveUp(Client& client, Phase phase);
 
-    // What both kinds of threads do with a connection that they have, which they then have not.
+    // Both kinds of threads call these for a connection they own, and give up ownership.
     void await(Client& client);
     void enter(Client& client, Phase phase, Clock::time_point since,
                std::chrono::milliseconds patience);
@@ -105,7 +122,7 @@ class Listener {
     Handler& handler_;
     int listenFd_ = -1, epollFd_ = -1, wakeFd_ = -1;
     int port_ = 0;
-    std::atomic<bool> stopping_{false};
+    std::atomic<bool> closing_{false}, stopping_{false};
     std::atomic<std::size_t> buffered_{0};
     mutable std::mutex mutex_;  ///< of what follows, and of Client's phase
     std::condition_variable ready_;
@@ -113,7 +130,10 @@ class Listener {
     std::deque<Client*> queue_;
     Traffic closed_;
     bool ended_ = false;
-    Clock::time_point swept_{};
+    std::map<std::string, int, std::less<>> networks_;  ///< connections of each
+    Clock::time_point swept_{}, acceptAgain_{};
+    bool isAccepting_ = true;
+    int reads_ = 1;  ///< of one connection before others have their turn
     std::thread mover_;
     std::vector<std::thread> threads_;
 };

@@ -7,12 +7,20 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <variant>
 #include <vector>
+
+#include "core/message.h"
+#include "server/http/authority.h"
 
 /// Requests and responses as the service sees them: nothing of the HTTP library shows here.
 namespace farol::server::http {
 
 using Fields = std::vector<std::pair<std::string, std::string>>;
+
+/// Names and values for a line of the log.
+using LogValue = std::variant<std::string, double, std::int64_t>;
+using LogFields = std::vector<std::pair<std::string, LogValue>>;
 
 struct Request {
     std::string id;             ///< the client's X-Request-Id when it is well-formed, else our own
@@ -21,6 +29,8 @@ struct Request {
     Fields query;               ///< decoded, in order of appearance
     Fields headers;             ///< names in lower case
     std::string remoteAddress;  ///< of the socket's peer, never from a header
+    std::optional<Authority> authority;  ///< of an absolute target, else of Host
+    bool lacksHost = false;              ///< HTTP/1.1 without a Host header
 
     /// The header's value (name in lower case), or nothing.
     std::optional<std::string> header(std::string_view name) const;
@@ -41,7 +51,7 @@ struct Response {
     std::string body;
     std::shared_ptr<const std::string> shared = {};  ///< the body instead, where others send it too
     std::string contentType;
-    Fields logged;                      ///< more for this request's line in the log
+    LogFields logged;                   ///< more for this request's line in the log
     std::chrono::milliseconds hold{0};  ///< is sent that much later, and holds no thread
 
     void set(std::string name, std::string value) {
@@ -49,7 +59,7 @@ struct Response {
     }
 };
 
-/// What stands behind the connections. Called by many threads at once; must not throw.
+/// Handles the requests of all connections. Called by many threads at once; must not throw.
 class Handler {
   public:
     virtual ~Handler() = default;
@@ -57,9 +67,8 @@ class Handler {
     /// refused whatever they are. Called by the one thread that moves all bytes: must not block.
     virtual std::size_t bodyLimit(const Request& request) const = 0;
     virtual Response handle(const Request& request, Body& body) = 0;
-    /// An answer to a request that could not be read as HTTP. `code` as in problem.h.
-    virtual Response refuse(const Request& request, int status, const std::string& code,
-                            const std::string& message) = 0;
+    /// The response to a request that could not be read as HTTP.
+    virtual Response refuse(const Request& request, int status, const Message& message) = 0;
     /// Called after the answer was written. `sent` is false when the client had gone or did not
     /// take it in time.
     virtual void finished(const Request& request, const Response& response, double milliseconds,

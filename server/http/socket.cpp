@@ -30,21 +30,47 @@ std::string addressText(const sockaddr_storage& address) {
     return text.data();
 }
 
-}  // namespace
+using Addresses = std::unique_ptr<addrinfo, void (*)(addrinfo*)>;
 
-int listenOn(const std::string& host, int port) {
+Addresses resolve(const std::string& host, int port, int& fault) {
     addrinfo hints{};
     hints.ai_socktype = SOCK_STREAM;
     hints.ai_flags = AI_PASSIVE | AI_NUMERICSERV;
     addrinfo* found = nullptr;
+    fault = ::getaddrinfo(host.empty() ? nullptr : host.c_str(), std::to_string(port).c_str(),
+                          &hints, &found);
+    return {found, [](addrinfo* list) {
+                if (list != nullptr) ::freeaddrinfo(list);
+            }};
+}
+
+bool isLoopbackAddress(const sockaddr* address) {
+    if (address->sa_family == AF_INET) {
+        const auto* v4 = reinterpret_cast<const sockaddr_in*>(address);
+        return ntohl(v4->sin_addr.s_addr) >> 24U == IN_LOOPBACKNET;
+    }
+    return address->sa_family == AF_INET6 &&
+           IN6_IS_ADDR_LOOPBACK(&reinterpret_cast<const sockaddr_in6*>(address)->sin6_addr);
+}
+
+}  // namespace
+
+bool isLoopback(const std::string& host) {
+    int fault = 0;
+    const Addresses addresses = resolve(host, 0, fault);
+    for (const addrinfo* one = addresses.get(); one != nullptr; one = one->ai_next)
+        if (!isLoopbackAddress(one->ai_addr)) return false;
+    return addresses != nullptr;
+}
+
+int listenOn(const std::string& host, int port) {
     const std::string at = host + ":" + std::to_string(port);
-    const int fault = ::getaddrinfo(host.empty() ? nullptr : host.c_str(),
-                                    std::to_string(port).c_str(), &hints, &found);
+    int fault = 0;
+    const Addresses addresses = resolve(host, port, fault);
     if (fault != 0)
         throw std::runtime_error("cannot listen on " + at + ": " + ::gai_strerror(fault));
-    const std::unique_ptr<addrinfo, void (*)(addrinfo*)> owner(found, ::freeaddrinfo);
     int lastError = EADDRNOTAVAIL;
-    for (const addrinfo* one = found; one != nullptr; one = one->ai_next) {
+    for (const addrinfo* one = addresses.get(); one != nullptr; one = one->ai_next) {
         const int fd = ::socket(one->ai_family, one->ai_socktype | SOCK_NONBLOCK | SOCK_CLOEXEC,
                                 one->ai_protocol);
         if (fd < 0) {

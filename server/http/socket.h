@@ -8,6 +8,9 @@ namespace farol::server::http {
 /// std::runtime_error that says why it cannot.
 int listenOn(const std::string& host, int port);
 
+/// True if all addresses of the host are the machine's own. False where it has none.
+bool isLoopback(const std::string& host);
+
 /// The port that it listens on.
 int portOf(int fd);
 

@@ -1,5 +1,9 @@
 #include "server/http/uri.h"
 
+#include <algorithm>
+
+#include "core/text.h"
+
 namespace farol::server::http {
 namespace {
 
@@ -11,8 +15,7 @@ int hexDigit(char c) {
 }
 
 bool isUnreserved(char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' ||
-           c == '.' || c == '_' || c == '~';
+    return isAlphanumeric(c) || c == '-' || c == '.' || c == '_' || c == '~';
 }
 
 bool isControl(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; }
@@ -56,14 +59,18 @@ std::string percentEncodePath(std::string_view text) {
 }
 
 std::optional<Target> parseTarget(std::string_view target) {
-    for (const std::string_view scheme : {"http://", "https://"}) {
-        if (!target.starts_with(scheme)) continue;
-        const std::size_t slash = target.find_first_of("/?", scheme.size());
-        target = slash == std::string_view::npos ? "/" : target.substr(slash);
-    }
-    target = target.substr(0, target.find('#'));
-    const std::size_t mark = target.find('?');
     Target out;
+    target = target.substr(0, target.find('#'));
+    for (const std::string_view scheme : {"http://", "https://"}) {
+        if (!sameWord(target.substr(0, scheme.size()), scheme)) continue;
+        target.remove_prefix(scheme.size());
+        const std::size_t end = target.find_first_of("/?");
+        out.authority = parseAuthority(target.substr(0, end));
+        if (!out.authority) return std::nullopt;
+        target = end == std::string_view::npos ? "/" : target.substr(end);
+        break;
+    }
+    const std::size_t mark = target.find('?');
     out.path = std::string(target.substr(0, mark));
     if (!out.path.starts_with('/') || !percentDecode(out.path, false)) return std::nullopt;
     if (mark == std::string_view::npos) return out;

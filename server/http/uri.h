@@ -16,12 +16,13 @@ std::optional<std::string> percentDecode(std::string_view text, bool plusIsBlank
 std::string percentEncodePath(std::string_view text);
 
 struct Target {
-    std::string path;  ///< starts with '/'; still encoded
-    Fields query;      ///< decoded
+    std::string path;                    ///< starts with '/'; still encoded
+    Fields query;                        ///< decoded
+    std::optional<Authority> authority;  ///< of "http://host/path"
 };
 
 /// Splits the target of a request line ("/path?a=b" or "http://host/path?a=b"). Nothing when it
-/// is neither or an escape is bad.
+/// is neither, its host is malformed or an escape is bad.
 std::optional<Target> parseTarget(std::string_view target);
 
 }  // namespace farol::server::http

@@ -2,23 +2,25 @@
 
 #include <functional>
 #include <mutex>
+#include <set>
 #include <string>
 
-#include "render/lru.h"
+#include "core/lru_cache.h"
 #include "server/store/files.h"
 #include "server/store/index.h"
 
 namespace farol::server::store {
 
 /// Scenes in a folder, a file each (scene_file.h): `scenes/` holds what was acknowledged, `new/`
-/// what is being written, `aside/` what was found damaged or is not ours. One process at a time.
-/// What is read is checked against its digest, so that nothing damaged is served.
+/// unfinished files, `aside/` files with a wrong digest or of other programs. One process at a
+/// time. Each file read is checked against its digest: damaged ones are never served. A file that
+/// cannot be read stays where it is: its scene is Busy store.failed until it can.
 class DiskStore final : public SceneStore {
   public:
     using Log = std::function<void(const std::string&)>;
 
     /// Reads and checks all that is there. Throws std::runtime_error when the folder cannot be
-    /// made, or another process has it.
+    /// made or listed, or another process has it.
     DiskStore(std::string folder, StoreLimits limits, Log log);
 
     Put put(const scene::Bundle& bundle, bool listed) override;
@@ -31,8 +33,14 @@ class DiskStore final : public SceneStore {
     static constexpr std::size_t kCachedBytes = std::size_t{64} << 20U;
 
   private:
+    enum class Loaded { whole, missing, rejected, failed };
+
     std::string pathOf(const std::string& id) const;
     void takeStock();
+    Loaded load(const std::string& path, Stored& scene, int& error) const;
+    bool isUnread(const std::string& id) const;
+    void readAgain(const std::string& id);
+    std::optional<Stored> reload(const std::string& id);
     void setAside(const std::string& path, const std::string& why);
     bool drop(const std::string& id);
 
@@ -42,7 +50,8 @@ class DiskStore final : public SceneStore {
     std::mutex writing_;  ///< held while files change; taken before mutex_
     mutable std::mutex mutex_;
     Index index_;
-    render::LruCache<std::string, std::shared_ptr<const scene::Bundle>> cache_{kCachedBytes};
+    std::set<std::string> unread_;  ///< ids of files that could not be read yet
+    LruCache<std::string, std::shared_ptr<const scene::Bundle>> cache_{kCachedBytes};
 };
 
 }  // namespace farol::server::store

@@ -10,7 +10,7 @@
 
 namespace farol::server::store {
 
-/// What stores have in common: which scenes there are, which expire, which go first. Not for
+/// Index that all stores share: scenes, their expiry, the order of eviction. Not for
 /// several threads at once.
 class Index {
   public:
@@ -21,9 +21,19 @@ class Index {
     /// Null where there is none, or it has expired.
     const Entry* find(const std::string& id, Time now) const;
     /// The scene is now the last to go.
-    void touch(const std::string& id);
-    /// Adds or replaces; the scene is now the last to go.
-    void put(const Entry& entry);
+    void touch(const std::string& id, Time now = {});
+    /// Adds or replaces; the scene is now the last to go. `owner`: the client that sent it.
+    void put(const Entry& entry, const std::string& owner = "", Time now = {});
+    /// The client that sent a scene; empty where there is none.
+    std::string ownerOf(const std::string& id) const;
+    /// Returns the limits of one client: a quarter of the store's.
+    StoreLimits share() const;
+    /// The ids to remove before a client's new scene is put: expired ones, his own oldest beyond
+    /// his share, then what nobody used for kProtected, then more of his own, oldest first. Nothing
+    /// where that does not make room: what others use stays.
+    std::optional<std::vector<std::string>> roomFor(const Entry& entry, const std::string& client,
+                                                    Time now) const;
+    static constexpr std::chrono::seconds kProtected{3'600};
     void erase(const std::string& id);
     /// The ids to remove, so that the rest is within the limits. Never `keep`.
     std::vector<std::string> toEvict(const std::string& keep, Time now) const;
@@ -35,6 +45,8 @@ class Index {
     struct Slot {
         Entry entry;
         std::list<std::string>::iterator place;
+        std::string owner;
+        Time used;
     };
     StoreLimits limits_;
     std::map<std::string, Slot> entries_;

@@ -1,12 +1,12 @@
 #include "server/store/memory_store.h"
 
-#include "scene/error.h"
+#include "core/error.h"
+#include "server/messages.h"
+#include "worker/backend.h"
 
 namespace farol::server::store {
 namespace {
-
-Time now() { return std::chrono::system_clock::now(); }
-
+constexpr int kRoomRetryS = 60;
 }  // namespace
 
 void MemoryStore::drop(const std::string& id) {
@@ -15,16 +15,34 @@ void MemoryStore::drop(const std::string& id) {
 }
 
 SceneStore::Put MemoryStore::put(const scene::Bundle& bundle, bool listed) {
+    return keep(nullptr, bundle, listed);
+}
+
+SceneStore::Put MemoryStore::putFor(const std::string& client, const scene::Bundle& bundle,
+                                    bool listed) {
+    return keep(&client, bundle, listed);
+}
+
+SceneStore::Put MemoryStore::keep(const std::string* client, const scene::Bundle& bundle,
+                                  bool listed) {
     Entry entry{idOf(bundle), listed, index_.expiry(now()), bundle.bytes()};
     const std::lock_guard lock(mutex_);
-    refuseLargerThan(index_.limits(), entry.bytes);
+    refuseLargerThan(client == nullptr ? index_.limits() : index_.share(), entry.bytes);
     const Entry* known = index_.find(entry.id, now());
     const bool created = known == nullptr;
-    if (created)
-        bundles_[entry.id] = std::make_shared<const scene::Bundle>(bundle);
-    else
+    if (!created) {
+        // It stays among the scenes of its first sender.
         entry.listed = entry.listed || known->listed;
-    index_.put(entry);
+        index_.put(entry, index_.ownerOf(entry.id), now());
+        return {entry, false};
+    }
+    if (client != nullptr) {
+        const auto room = index_.roomFor(entry, *client, now());
+        if (!room) throw worker::Busy(message<"store.full/room">(), kRoomRetryS);
+        for (const std::string& id : *room) drop(id);
+    }
+    bundles_[entry.id] = std::make_shared<const scene::Bundle>(bundle);
+    index_.put(entry, client == nullptr ? "" : *client, now());
     for (const std::string& id : index_.toEvict(entry.id, now())) drop(id);
     return {entry, created};
 }
@@ -33,7 +51,7 @@ std::optional<Stored> MemoryStore::get(const std::string& id) {
     const std::lock_guard lock(mutex_);
     const Entry* entry = index_.find(id, now());
     if (entry == nullptr) return std::nullopt;
-    index_.touch(id);
+    index_.touch(id, now());
     return Stored{*entry, bundles_.at(id)};
 }
 

@@ -13,7 +13,9 @@ class MemoryStore final : public SceneStore {
   public:
     explicit MemoryStore(StoreLimits limits) : index_(limits) {}
 
+    /// Without a client: any scene makes room, the least recently used first.
     Put put(const scene::Bundle& bundle, bool listed) override;
+    Put putFor(const std::string& client, const scene::Bundle& bundle, bool listed) override;
     std::optional<Stored> get(const std::string& id) override;
     bool remove(const std::string& id) override;
     std::vector<Entry> list() override;
@@ -21,6 +23,7 @@ class MemoryStore final : public SceneStore {
     std::uint64_t bytes() const override;
 
   private:
+    Put keep(const std::string* client, const scene::Bundle& bundle, bool listed);
     void drop(const std::string& id);
 
     mutable std::mutex mutex_;

@@ -3,11 +3,12 @@
 #include <hiredis/hiredis.h>
 
 #include <algorithm>
-#include <charconv>
 #include <utility>
 
-#include "scene/error.h"
+#include "core/error.h"
+#include "core/number.h"
 #include "server/http/uri.h"
+#include "server/messages.h"
 
 namespace farol::server::store {
 namespace {
@@ -16,17 +17,15 @@ constexpr std::size_t kMostFree = 16;  // connections kept for later
 constexpr const char* kPausing = "it was not there a moment ago";
 
 [[noreturn]] void refuseUrl(const std::string& why) {
-    throw Error("option.syntax", "store is redis://[user:password@]host[:port][/database]: " + why,
-                {}, "store");
+    throw Error(message<"option.syntax/store">("reason"_arg = uncut(why)), {}, "store");
 }
 
 int numberIn(std::string_view text, int min, int max, const char* name) {
-    int number = -1;
-    const auto [end, failed] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (failed != std::errc{} || end != text.data() + text.size() || number < min || number > max)
-        refuseUrl(std::string("the ") + name + " must be in " + std::to_string(min) + ".." +
+    const auto number = parseExact<int>(text);
+    if (!number || *number < min || *number > max)
+        refuseUrl(std::string("the ") + name + " must be in " + std::to_string(min) + " to " +
                   std::to_string(max));
-    return number;
+    return *number;
 }
 
 std::string decoded(std::string_view text) {
@@ -81,7 +80,7 @@ std::string RedisAddress::shown() const {
 
 RedisAddress redisAddressOf(const std::string& url) {
     constexpr std::string_view kScheme = "redis://";
-    if (!url.starts_with(kScheme)) refuseUrl("it begins otherwise");
+    if (!url.starts_with(kScheme)) refuseUrl("it does not begin with redis://");
     std::string_view rest = std::string_view(url).substr(kScheme.size());
     RedisAddress address;
     if (const std::size_t slash = rest.find('/'); slash != std::string_view::npos) {
@@ -92,22 +91,22 @@ RedisAddress redisAddressOf(const std::string& url) {
     if (const std::size_t at = rest.rfind('@'); at != std::string_view::npos) {
         const std::string_view who = rest.substr(0, at);
         const std::size_t colon = who.find(':');
-        if (colon == std::string_view::npos) refuseUrl("there is a name without a password");
+        if (colon == std::string_view::npos) refuseUrl("the password is missing");
         address.user = decoded(who.substr(0, colon));
         address.password = decoded(who.substr(colon + 1));
         rest = rest.substr(at + 1);
     }
     if (rest.starts_with('[')) {
         const std::size_t end = rest.find(']');
-        if (end == std::string_view::npos) refuseUrl("a ] is missing");
+        if (end == std::string_view::npos) refuseUrl("the ] of the address is missing");
         address.host = rest.substr(1, end - 1);
         rest = rest.substr(end + 1);
     } else {
         address.host = rest.substr(0, rest.find(':'));
         rest = rest.substr(address.host.size());
     }
-    if (address.host.empty()) refuseUrl("there is no host");
-    if (!rest.empty() && rest.front() != ':') refuseUrl("the port is written :6379");
+    if (address.host.empty()) refuseUrl("the host is missing");
+    if (!rest.empty() && rest.front() != ':') refuseUrl("the port is not written as :6379");
     if (!rest.empty()) address.port = numberIn(rest.substr(1), 1, 65'535, "port");
     return address;
 }
@@ -135,7 +134,7 @@ RedisLink::Connection RedisLink::connect() const {
         const Reply reply = send(*made, words);
         if (!reply) throw RedisAway(made->errstr);
         if (reply->type == REDIS_REPLY_ERROR)
-            throw RedisAway(std::string(reply->str, reply->len));  // mended by the operator
+            throw RedisAway(std::string(reply->str, reply->len));  // the operator must fix it
     };
     if (!address_.user.empty())
         greet({"AUTH", address_.user, address_.password});

@@ -27,7 +27,7 @@ struct RedisAddress {
 /// Throws Error option.syntax, which never repeats the password.
 RedisAddress redisAddressOf(const std::string& url);
 
-/// What Redis answers, without its library's types.
+/// A reply of Redis, without its library's types.
 struct RedisReply {
     bool isNil = false;
     std::int64_t number = 0;

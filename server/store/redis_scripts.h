@@ -1,9 +1,10 @@
 #pragma once
 
-/// What Redis runs, each as a whole (redis.io, "Scripting with Lua"). KEYS[1] is the prefix of all
-/// keys; in :scene:ID is a scene's file, and beside it, by id: in :sizes its bytes, in :used when
-/// it was last asked for (us since 1970), in :expiry when it ends (ms), in :listed those of the
-/// gallery; :total is the sum of the sizes.
+/// Scripts that Redis runs atomically (redis.io, "Scripting with Lua"). KEYS[1] is the prefix of
+/// all keys; in :scene:ID is a scene's file, and beside it, by id: in :sizes its bytes, in :used
+/// when it was last asked for (us since 1970), in :expiry when it ends (ms), in :listed those of
+/// the gallery; :total is the sum of the sizes. In :aside:ID is a file that did not match its
+/// digest.
 namespace farol::server::store::redis {
 
 inline constexpr const char* kCommon = R"(
@@ -39,15 +40,19 @@ end
 inline constexpr const char* kPut = R"(
 local id, file, listed = ARGV[1], ARGV[2], ARGV[3]
 local life, bytes, scenes = tonumber(ARGV[4]), tonumber(ARGV[5]), tonumber(ARGV[6])
-local created = 1 - redis.call('EXISTS', at('scene:' .. id))
-if created == 1 then
+local known = redis.call('GET', at('scene:' .. id))
+local created = known and 0 or 1
+-- Where another file is there, it was changed inside Redis: what was sent replaces it.
+if known ~= file then
   -- Before any other change: a full Redis refuses what takes room in a script's first change only.
   redis.call('SET', at('scene:' .. id), file)
   local stale = redis.call('HGET', at('sizes'), id) or 0
   redis.call('INCRBY', at('total'), #file - stale)
   redis.call('HSET', at('sizes'), id, #file)
-  redis.call('ZREM', at('expiry'), id)
-  redis.call('SREM', at('listed'), id)
+  if created == 1 then
+    redis.call('ZREM', at('expiry'), id)
+    redis.call('SREM', at('listed'), id)
+  end
 end
 expire()
 if life > 0 then
@@ -81,6 +86,17 @@ return entry(id)
 
 /// ID -> 1, or 0 where there was none
 inline constexpr const char* kRemove = "return drop(ARGV[1])";
+
+/// ID FILE SECONDS -> 1 where the scene's file was FILE and is now in :aside:ID for SECONDS; else
+/// 0: it was replaced meanwhile
+inline constexpr const char* kSetAside = R"(
+local id = ARGV[1]
+if redis.call('GET', at('scene:' .. id)) ~= ARGV[2] then return 0 end
+redis.call('RENAME', at('scene:' .. id), at('aside:' .. id))
+redis.call('EXPIRE', at('aside:' .. id), ARGV[3])
+drop(id)
+return 1
+)";
 
 /// -> {{id, listed, expires, bytes}, ...}
 inline constexpr const char* kList = R"(

@@ -2,40 +2,40 @@
 
 #include <algorithm>
 
-#include "server/backend.h"
+#include "server/messages.h"
 #include "server/store/redis_scripts.h"
 #include "server/store/scene_file.h"
+#include "worker/backend.h"
 
 namespace farol::server::store {
 namespace {
 
-constexpr int kRetryAfterS = 5;       // a Redis that starts again is there by then
-constexpr int kRetryAfterFullS = 60;  // somebody has to make room
+constexpr int kRetryAfterOutageS = 5;  // a Redis that starts again is there by then
+constexpr int kRetryAfterChangeS = 1;
+constexpr const char* kAsideS = "604800";  // damaged files are kept for a week
+constexpr int kRetryAfterFullS = 60;       // somebody has to make room
 // In a cluster, one node has all of it: the scripts need that.
 constexpr const char* kPrefix = "{farol}";
 constexpr int kMostRounds = 1'000;  // of expiring, each of at most a thousand scenes
 
-Time now() { return std::chrono::system_clock::now(); }
-
-Time timeOf(std::int64_t ms) { return ms == 0 ? Time::max() : Time(std::chrono::milliseconds(ms)); }
+Time timeOfMs(std::int64_t ms) {
+    return ms == 0 ? Time::max() : Time(std::chrono::milliseconds(ms));
+}
 
 std::string keyOf(const std::string& id) { return std::string(kPrefix) + ":scene:" + id; }
 
 /// {listed, expires in ms or 0, bytes}
 Entry entryOf(const std::string& id, const std::vector<RedisReply>& parts, std::size_t from = 0) {
-    return {id, parts.at(from).number == 1, timeOf(parts.at(from + 1).number),
+    return {id, parts.at(from).number == 1, timeOfMs(parts.at(from + 1).number),
             static_cast<std::uint64_t>(parts.at(from + 2).number)};
 }
 
-Busy unreachable() {
-    return {"store.unreachable", "The store of uploaded scenes cannot be reached now.",
-            kRetryAfterS};
-}
+worker::Busy unreachable() { return {message<"store.unreachable">(), kRetryAfterOutageS}; }
 
-Busy refused(const RedisRefusal& why) {
+worker::Busy refused(const RedisRefusal& why) {
     if (std::string_view(why.what()).starts_with("OOM"))
-        return {"store.full", "There is no room to store the scene.", kRetryAfterFullS};
-    return {"store.failed", "The scene could not be stored or removed.", kRetryAfterFullS};
+        return {message<"store.full">(), kRetryAfterFullS};
+    return {message<"store.failed">(), kRetryAfterFullS};
 }
 
 /// The value behind "name:" in what INFO says.
@@ -73,7 +73,7 @@ void RedisStore::inspectServer() {
         if (!policy.empty() && policy != "noeviction")
             log_("Redis may drop scenes by itself: its maxmemory-policy is " + policy);
     } catch (const RedisAway&) {
-        // The link has said so.
+        // The link has logged it.
     } catch (const RedisRefusal& why) {
         log_(std::string("Redis does not say how it keeps its data: ") + why.what());
     }
@@ -103,7 +103,7 @@ SceneStore::Put RedisStore::put(const scene::Bundle& bundle, bool listed) {
     scene.entry.id = idOf(bundle);
     scene.entry.expires = Time::max();
     scene.bundle = std::make_shared<const scene::Bundle>(bundle);
-    // What may change of a scene is beside its file, which so is the same whoever sends it.
+    // Changeable facts are stored beside the file, which is the same for all senders.
     const std::string file = encodeScene(scene);
     refuseLargerThan(limits_, file.size());
     const auto expireMs = std::chrono::milliseconds(limits_.expire).count();
@@ -130,14 +130,15 @@ std::optional<Stored> RedisStore::get(const std::string& id) {
             if (file.isNil) return std::nullopt;  // expired in between
             auto read = decodeScene(file.text);
             if (!read || read->entry.id != id) {
-                log_(id + " is damaged and removed");
-                run(redis::kRemove, {id});
+                if (run(redis::kSetAside, {id, file.text, kAsideS}).number == 0)
+                    throw worker::Busy(message<"store.failed/change">(), kRetryAfterChangeS);
+                log_(id + " is damaged and set aside");
                 return std::nullopt;
             }
             scene.bundle = std::move(read->bundle);
         }
     } catch (const RedisAway&) {
-        // A scene is its content's digest: what is here is right, even if it was deleted elsewhere.
+        // A scene is its content's digest: this copy is right, even if it was deleted elsewhere.
         if (scene.bundle && scene.entry.expires > now()) return scene;
         throw unreachable();
     } catch (const RedisRefusal& why) {

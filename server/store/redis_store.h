@@ -4,16 +4,16 @@
 #include <mutex>
 #include <string>
 
-#include "render/lru.h"
+#include "core/lru_cache.h"
 #include "server/store/redis_link.h"
 #include "server/store/scene_store.h"
 
 namespace farol::server::store {
 
 /// Scenes in a Redis that many services share: what one of them has acknowledged, all of them have.
-/// Every change is one script, so that it happens as a whole and Redis's clock rules them all.
+/// Every change is one script: it is atomic, and Redis's clock applies to all replicas.
 /// Where Redis cannot be asked, put, remove and list throw Busy store.unreachable, and get gives
-/// what this service has in its memory.
+/// the scenes in this service's memory.
 class RedisStore final : public SceneStore {
   public:
     using Log = std::function<void(const std::string&)>;
@@ -45,7 +45,7 @@ class RedisStore final : public SceneStore {
     mutable RedisLink link_;
     mutable std::mutex mutex_;
     /// The scenes asked for last, with what was known of them then.
-    render::LruCache<std::string, Stored> cache_{kCachedBytes};
+    LruCache<std::string, Stored> cache_{kCachedBytes};
 };
 
 }  // namespace farol::server::store

@@ -1,9 +1,8 @@
 #include "server/store/scene_file.h"
 
-#include <charconv>
-
-#include "scene/assets.h"
-#include "scene/digest.h"
+#include "core/digest.h"
+#include "core/number.h"
+#include "scene/files/assets.h"
 
 namespace farol::server::store {
 namespace {
@@ -17,19 +16,11 @@ void append(std::string& out, string_view field) {
     out.append(std::to_string(field.size())).append(":").append(field);
 }
 
-template <typename Number>
-std::optional<Number> numberOf(string_view text) {
-    Number number{};
-    const auto [end, failed] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (failed != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-    return number;
-}
-
 /// Cuts one field off the front; nothing where there is none.
 std::optional<string_view> take(string_view& rest) {
     const std::size_t colon = rest.find(':');
     if (colon == string_view::npos) return std::nullopt;
-    const auto size = numberOf<std::size_t>(rest.substr(0, colon));
+    const auto size = parseExact<std::size_t>(rest.substr(0, colon));
     rest.remove_prefix(colon + 1);
     if (!size || *size > rest.size()) return std::nullopt;
     const string_view field = rest.substr(0, *size);
@@ -42,7 +33,7 @@ std::int64_t secondsOf(Time time) {
     return std::chrono::duration_cast<std::chrono::seconds>(time.time_since_epoch()).count();
 }
 
-Time timeOf(std::int64_t seconds) {
+Time timeOfSeconds(std::int64_t seconds) {
     return seconds == 0 ? Time::max() : Time(std::chrono::seconds(seconds));
 }
 
@@ -58,7 +49,7 @@ std::string encodeScene(const Stored& scene) {
         append(body, path);
         append(body, content);
     }
-    return std::string(kMagic) + scene::contentDigest(body) + "\n" + body;
+    return std::string(kMagic) + contentDigest(body) + "\n" + body;
 }
 
 std::optional<Stored> decodeScene(string_view file) {
@@ -66,11 +57,11 @@ std::optional<Stored> decodeScene(string_view file) {
     if (file.size() < kHead || !file.starts_with(kMagic) || file[kHead - 1] != '\n')
         return std::nullopt;
     string_view rest = file.substr(kHead);
-    if (scene::contentDigest(rest) != file.substr(kMagic.size(), kDigits)) return std::nullopt;
+    if (contentDigest(rest) != file.substr(kMagic.size(), kDigits)) return std::nullopt;
     const auto listed = take(rest), expires = take(rest), main = take(rest);
     if (!listed || !expires || !main) return std::nullopt;
-    const auto seconds = numberOf<std::int64_t>(*expires);
-    constexpr std::int64_t kLatest = 9'000'000'000;  // what the clock's nanoseconds can hold
+    const auto seconds = parseExact<std::int64_t>(*expires);
+    constexpr std::int64_t kLatest = 9'000'000'000;  // limit of the clock's nanoseconds
     if (!seconds || *seconds < 0 || *seconds > kLatest) return std::nullopt;
     auto bundle = std::make_shared<scene::Bundle>();
     bundle->main = *main;
@@ -81,7 +72,7 @@ std::optional<Stored> decodeScene(string_view file) {
     }
     if (bundle->files.count(bundle->main) == 0) return std::nullopt;
     Stored scene;
-    scene.entry = {idOf(*bundle), *listed == "1", timeOf(*seconds), file.size()};
+    scene.entry = {idOf(*bundle), *listed == "1", timeOfSeconds(*seconds), file.size()};
     scene.bundle = std::move(bundle);
     return scene;
 }

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
-#include "scene/error.h"
+#include "core/error.h"
+#include "core/text.h"
+#include "server/messages.h"
 
 namespace farol::server::store {
 
@@ -12,14 +14,12 @@ bool isStoredId(const std::string& id) {
     constexpr std::size_t kDigits = 32;
     return id.size() == kDigits + 1 && id.front() == '~' &&
            std::all_of(id.begin() + 1, id.end(),
-                       [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); });
+                       [](char c) { return isDigit(c) || (c >= 'a' && c <= 'f'); });
 }
 
 void refuseLargerThan(const StoreLimits& limits, std::uint64_t bytes) {
     if (bytes > limits.bytes)
-        throw Error("limit.store", "The scene with its files has " + std::to_string(bytes) +
-                                       " bytes; the store takes " + std::to_string(limits.bytes) +
-                                       " at most.");
+        throw Error(message<"limit.store">("count"_arg = bytes, "max"_arg = limits.bytes));
 }
 
 }  // namespace farol::server::store

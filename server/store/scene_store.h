@@ -7,14 +7,16 @@
 #include <string>
 #include <vector>
 
-#include "scene/bundle.h"
+#include "scene/files/bundle.h"
 
 /// Where uploaded scenes are kept.
 namespace farol::server::store {
 
 using Time = std::chrono::system_clock::time_point;
+/// Returns the time by which scenes expire.
+inline Time now() { return std::chrono::system_clock::now(); }
 
-/// What is known of a stored scene without opening it.
+/// Facts about a stored scene that need no decoding.
 struct Entry {
     std::string id;           ///< "~" and the digest of the bundle
     bool listed = false;      ///< in the gallery; else only who knows the id finds it
@@ -49,6 +51,13 @@ class SceneStore {
     /// that nobody asked for the longest make room. Throws Error limit.store for one that alone is
     /// larger than the store.
     virtual Put put(const scene::Bundle& bundle, bool listed) = 0;
+    /// The same on behalf of a client. A store in memory gives one client a share of its room, and
+    /// makes room from the client's own scenes and from those that nobody used for an hour only:
+    /// Busy store.full where that is not enough.
+    virtual Put putFor(const std::string& client, const scene::Bundle& bundle, bool listed) {
+        static_cast<void>(client);
+        return put(bundle, listed);
+    }
     /// The scene, unless it is not here, expired or damaged.
     virtual std::optional<Stored> get(const std::string& id) = 0;
     /// False where there was none.

@@ -3,8 +3,9 @@
 #include <fstream>
 #include <iterator>
 
-#include "bench/exact.h"
 #include "render/renderer.h"
+#include "tests/support/exact.h"
+#include "tests/support/paths.h"
 
 using namespace farol;
 
@@ -17,12 +18,12 @@ std::string textOf(const std::string& path) {
 }
 
 bench::Subject example(const std::string& name) {
-    const std::string folder = std::string(FAROL_SOURCE_DIR) + "/scenes/" + name;
+    const std::string folder = std::string(farol::test::kSourceDir) + "/scenes/" + name;
     return bench::readSubject(textOf(folder + "/scene.xml"),
                               std::make_shared<scene::FolderAssets>(folder));
 }
 
-render::Image drawn(const bench::Subject& subject, int width, int height, int samples) {
+image::Image drawn(const bench::Subject& subject, int width, int height, int samples) {
     render::Job job;
     job.xml = subject.xml(0);
     job.assets = subject.assets;
@@ -30,7 +31,7 @@ render::Image drawn(const bench::Subject& subject, int width, int height, int sa
     job.options.height = height;
     job.options.samples = samples;
     job.options.shading = scene::Shading::phong;
-    render::Image image;
+    image::Image image;
     render::Renderer().draw(job, image);
     return image;
 }
@@ -73,7 +74,7 @@ TEST_CASE("8 and 16 samples are shaded each: what changes within a pixel is aver
     const bench::Exact exact = bench::exactOf(subject, 60, 45, 16);
     std::vector<double> rms;
     for (const int samples : {1, 4, 8, 16}) {
-        const render::Image image = drawn(subject, 60, 45, samples);
+        const image::Image image = drawn(subject, 60, 45, samples);
         double squares = 0.0;
         int pixels = 0;
         for (std::size_t i = 0; i < exact.areas.color.size(); ++i) {

@@ -9,7 +9,7 @@
 #include <set>
 
 #include "generator/registry.h"
-#include "render/plan.h"
+#include "tests/support/plan_scene.h"
 
 // The promise of error=: nothing of a surface whose divisions are open is drawn farther from its
 // place than that many pixels. Meshes are taken from the plan, exact surfaces are evaluated here.
@@ -184,6 +184,15 @@ Subject Lottery::subject(int kind, std::map<std::string, std::string>& files) {
                  {}};
             break;
         }
+        case 10:
+            s = {"dome",
+                 {"dome", word(a)},
+                 a,
+                 [a](const dvec3& p) {
+                     return Implicit{glm::dot(p, p) - a * a, 2.0 * p};
+                 },
+                 [a](double) { return a; }};
+            break;
         default: {
             std::string text = "1\n0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15\n16\n";
             s.name = "patch";
@@ -211,10 +220,8 @@ View viewOf(Lottery& lottery, const Subject& subject) {
     View view;
     scene::Model model;
     model.source.kind = scene::ModelSource::Kind::shape;
-    model.source.words = subject.words;
-    if (subject.words.size() > 1 && subject.words[1].find('.') != std::string::npos &&
-        (subject.name == "revolution" || subject.name == "patch"))
-        model.source.path = subject.words[1];
+    model.source.shape = generator::parseCall(subject.words);
+    model.source.path = model.source.shape.file;
     model.twoSided = false;
     scene::Group group;
     const dvec3 place = lottery.between(0.0, 1e4) * lottery.direction();
@@ -252,9 +259,9 @@ double worstPx(const Subject& subject, const render::FramePlan& plan, Lottery& l
     glm::dmat4 viewFromObject = viewFromMesh;
     for (int i = 0; i < 3; ++i) viewFromObject[i] /= balance[i];
     const glm::dmat4 objectFromView = glm::inverse(viewFromObject);
-    const double focal = plan.height / 2.0 / std::tan(glm::radians(plan.camera.fovDeg) / 2.0);
+    const double focal = plan.view.size.y / 2.0 / std::tan(glm::radians(plan.camera.fovDeg) / 2.0);
     const auto screen = [&](const dvec3& p) { return focal * dvec2(p.x, p.y) / -p.z; };
-    const dvec2 half(plan.width / 2.0, plan.height / 2.0);
+    const dvec2 half(plan.view.size.x / 2.0, plan.view.size.y / 2.0);
     double worst = 0.0;
     const std::size_t triangles = mesh.triangles();
     const std::size_t step = std::max<std::size_t>(1, triangles / 60);
@@ -267,10 +274,10 @@ double worstPx(const Subject& subject, const render::FramePlan& plan, Lottery& l
             dvec2 uv(0.0);
             bool flat = true;
             for (std::size_t c = 0; c < 3; ++c) {
-                const std::uint32_t index = mesh.indices[3 * k + c];
-                p += w[static_cast<int>(c)] * dvec3(mesh.positions[index]);
-                uv += w[static_cast<int>(c)] * dvec2(mesh.uvs[index]);
-                flat = flat && mesh.normals[index].x == 0.0F && mesh.normals[index].z == 0.0F;
+                const std::uint32_t index = mesh.indices()[3 * k + c];
+                p += w[static_cast<int>(c)] * dvec3(mesh.positions()[index]);
+                uv += w[static_cast<int>(c)] * dvec2(mesh.uvs()[index]);
+                flat = flat && mesh.normals()[index].x == 0.0F && mesh.normals()[index].z == 0.0F;
             }
             p *= balance;
             const dvec3 seen(viewFromObject * glm::dvec4(p, 1.0));
@@ -321,10 +328,10 @@ TEST_CASE("the error bound is never exceeded: 10,000 shapes, cameras and scales"
     int seen = 0;
     for (int i = 0; seen < 10'000 && i < 20'000; ++i) {
         std::map<std::string, std::string> files;
-        const Subject subject = lottery.subject(i % 11, files);
+        const Subject subject = lottery.subject(i % 12, files);
         const View view = viewOf(lottery, subject);
         const scene::BundleAssets assets(files);
-        const render::FramePlan plan = render::plan(view.scene, view.options, assets, meshes);
+        const render::FramePlan plan = support::planScene(view.scene, view.options, assets, meshes);
         if (plan.items.empty()) continue;  // outside the view
         ++seen;
         const double worst = worstPx(subject, plan, lottery);
@@ -350,18 +357,18 @@ TEST_CASE("half the error never makes a coarser mesh, and an orbit meets few mes
     render::MeshLibrary meshes(std::size_t{64} << 20);
     for (int i = 0; i < 400; ++i) {
         std::map<std::string, std::string> files;
-        const Subject subject = lottery.subject(i % 11, files);
+        const Subject subject = lottery.subject(i % 12, files);
         View view = viewOf(lottery, subject);
         const scene::BundleAssets assets(files);
         const auto triangles = [&] {
-            return render::plan(view.scene, view.options, assets, meshes).stats.triangles;
+            return support::planScene(view.scene, view.options, assets, meshes).stats.triangles;
         };
         const auto before = triangles();
         view.options.errorPx = std::max(0.01, *view.options.errorPx / 2.0);
         CHECK(triangles() >= before);
     }
     std::map<std::string, std::string> files;
-    for (int kind = 2; kind < 10; ++kind) {
+    for (int kind = 2; kind < 11; ++kind) {
         const Subject subject = lottery.subject(kind, files);
         View view = viewOf(lottery, subject);
         const scene::BundleAssets assets(files);
@@ -373,7 +380,8 @@ TEST_CASE("half the error never makes a coarser mesh, and an orbit meets few mes
         for (int angle = 0; angle < 360; angle += 5) {
             view.options.azimuthDeg = angle;
             view.options.elevationDeg = 20.0;
-            const render::FramePlan plan = render::plan(view.scene, view.options, assets, meshes);
+            const render::FramePlan plan =
+                support::planScene(view.scene, view.options, assets, meshes);
             for (const render::DrawItem& item : plan.items) met.insert(item.mesh->id);
         }
         INFO(subject.name);
@@ -384,7 +392,7 @@ TEST_CASE("half the error never makes a coarser mesh, and an orbit meets few mes
 TEST_CASE("half the error lowers the median of the true error over 100 cameras") {
     Lottery lottery(31);
     render::MeshLibrary meshes(std::size_t{64} << 20);
-    for (int kind = 2; kind < 11; ++kind) {  // planes and boxes have none
+    for (int kind = 2; kind < 12; ++kind) {  // planes and boxes have none
         std::vector<double> whole, half;
         std::string name;
         while (whole.size() < 100) {
@@ -394,10 +402,12 @@ TEST_CASE("half the error lowers the median of the true error over 100 cameras")
             const scene::BundleAssets assets(files);
             // Fine enough that the ladder's coarsest mesh is not the one for both.
             view.options.errorPx = 0.5;
-            const render::FramePlan coarse = render::plan(view.scene, view.options, assets, meshes);
+            const render::FramePlan coarse =
+                support::planScene(view.scene, view.options, assets, meshes);
             if (coarse.items.empty()) continue;
             view.options.errorPx = 0.25;
-            const render::FramePlan fine = render::plan(view.scene, view.options, assets, meshes);
+            const render::FramePlan fine =
+                support::planScene(view.scene, view.options, assets, meshes);
             whole.push_back(worstPx(subject, coarse, lottery));
             half.push_back(worstPx(subject, fine, lottery));
             name = subject.name;

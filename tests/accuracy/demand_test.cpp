@@ -36,10 +36,12 @@ std::vector<Case> cases() {
     std::vector<Case> all;
     for (const std::string command :
          {"sphere 1", "ellipsoid 1.2 0.5 0.9", "cone 1 1.5", "cylinder 0.8 1", "frustum 0.5 1 1",
-          "frustum 1 0.2 0.3", "torus 1 0.4", "ring 0.4 1.2"})
+          "frustum 1 0.2 0.3", "torus 1 0.4", "ring 0.4 1.2", "dome 1.1"})
         for (const bool squeezed : {false, true})
             all.push_back({command + (squeezed ? ", squeezed" : ""), "command=\"" + command + "\"",
                            squeezed ? kSqueezed : ""});
+    all.push_back({"dome 1.1 from below", "command=\"dome 1.1\"",
+                   R"(<translate x="0" y="0.5" z="0"/><rotate angle="200" x="1" y="0" z="0"/>)"});
     for (const std::string command : {"cone 1 1.5", "cylinder 0.8 1"})
         all.push_back({command + " atlas", "uv=\"atlas\" command=\"" + command + "\"", ""});
     return all;
@@ -77,7 +79,7 @@ TEST_CASE("open shapes are exact within their outlines at any error bound") {
 TEST_CASE("the insides of open shapes are as exact") {
     const Supplies given = supplies(256, 192);
     for (const std::string command :
-         {"sphere 1", "cone 1 1.5", "cylinder 0.8 1", "frustum 0.5 1 1", "torus 1 0.4"})
+         {"sphere 1", "cone 1 1.5", "cylinder 0.8 1", "frustum 0.5 1 1", "torus 1 0.4", "dome 1.1"})
         for (const bool textured : {false, true}) {
             // The near plane cuts the front away.
             const Case one{command, "command=\"" + command + "\" twoSided=\"true\"",

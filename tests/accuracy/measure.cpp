@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "render/renderer.h"
-#include "scene/reader.h"
+#include "scene/read/reader.h"
 
 namespace farol::accuracy {
 namespace {
@@ -58,7 +58,7 @@ Figures measure(const std::string& xml, const render::PictureOptions& options,
     job.xml = xml;
     job.assets = assets ? assets : std::make_shared<scene::BundleAssets>();
     job.options = options;
-    render::Image image;
+    image::Image image;
     render::Renderer renderer;
     renderer.draw(job, image);
 

@@ -4,8 +4,8 @@
 #include <string>
 
 #include "render/options.h"
-#include "scene/assets.h"
-#include "tests/reference/tracer.h"
+#include "scene/files/assets.h"
+#include "tests/support/ray_caster/tracer.h"
 
 /// Our pictures against the independent ray caster's.
 namespace farol::accuracy {

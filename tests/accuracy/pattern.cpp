@@ -3,7 +3,8 @@
 #include <cmath>
 #include <map>
 
-#include "render/encode.h"
+#include "image/format.h"
+#include "image/image.h"
 
 namespace farol::accuracy {
 namespace {
@@ -35,8 +36,8 @@ std::string profile() {
 }
 
 /// Smooth waves over fine noise, no power of two: what a filter gets wrong shows.
-render::Image pattern(int width, int height) {
-    render::Image image{width, height, {}};
+image::Image pattern(int width, int height) {
+    image::Image image{width, height, {}};
     std::uint32_t state = 7;
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
@@ -56,13 +57,13 @@ render::Image pattern(int width, int height) {
 }  // namespace
 
 Supplies supplies(int width, int height) {
-    const render::Image image = pattern(width, height);
+    const image::Image image = pattern(width, height);
     reference::Pixels pixels{width, height, {}};
     for (std::size_t i = 0; i < image.pixels.size(); ++i)
         if (i % 4 != 3) pixels.rgb.push_back(image.pixels[i]);
     Supplies all;
     all.assets = std::make_shared<scene::BundleAssets>(std::map<std::string, std::string>{
-        {"it.png", render::encodePng(image)}, {"profile.ply", profile()}});
+        {"it.png", image::encodePng(image)}, {"profile.ply", profile()}});
     all.files.texts["profile.ply"] = profile();
     all.files.pictures["it.png"] = pixels;
     return all;

@@ -2,8 +2,8 @@
 
 #include <memory>
 
-#include "scene/assets.h"
-#include "tests/reference/world.h"
+#include "scene/files/assets.h"
+#include "tests/support/ray_caster/world.h"
 
 namespace farol::accuracy {
 

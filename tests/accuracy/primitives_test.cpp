@@ -2,6 +2,7 @@
 #include <fstream>
 
 #include "tests/accuracy/measure.h"
+#include "tests/support/paths.h"
 
 using namespace farol;
 using namespace farol::accuracy;
@@ -29,7 +30,7 @@ std::string document(const std::string& file, const std::string& transform = "")
 
 /// The teapot's control points: data, not code.
 reference::Files teapot() {
-    std::ifstream in(FAROL_SOURCE_DIR "/generator/data/teapot.patch");
+    std::ifstream in(std::string(farol::test::kSourceDir) + "/generator/data/teapot.patch");
     reference::Files files;
     files.texts["teapot.patch"] = {std::istreambuf_iterator<char>(in), {}};
     return files;

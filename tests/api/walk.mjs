@@ -11,8 +11,9 @@ import readline from 'node:readline';
 const [program, source, output] = process.argv.slice(2);
 if (!existsSync(path.join(import.meta.dirname ?? path.dirname(new URL(import.meta.url).pathname),
                           'node_modules'))) {
-    console.log('skipped: tests/api/node_modules is missing; scripts/setup installs it by npm');
-    process.exit(77);
+    const reason = 'no packages of npm in tests/api (scripts/setup test)';
+    console.log(process.env.CI === 'true' ? `FAILED: ${reason}` : `SKIPPED: ${reason}`);
+    process.exit(process.env.CI === 'true' ? 1 : 77);
 }
 const { Validator } = await import('@seriousme/openapi-schema-validator');
 const { default: Ajv } = await import('ajv/dist/2020.js');
@@ -134,7 +135,7 @@ async function walk(pattern, method, operation) {
 }
 
 function runExample(command, ...words) {
-    if (spawnSync(command, ['--version']).error) return console.log(`skipped: there is no ${command}`);
+    if (spawnSync(command, ['--version']).error) return console.log(`SKIPPED: no ${command}, so its example`);
     const folder = path.join(output, `example-${path.basename(words[0])}`);
     const done = spawnSync(command, [path.join(source, 'api/examples', words[0]), base, words[1], folder], { encoding: 'utf8' });
     check(done.status === 0, `${words[0]} ends well: ${done.stdout}${done.stderr}`);

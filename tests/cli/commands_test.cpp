@@ -3,17 +3,17 @@
 #include <string>
 #include <vector>
 
-#include "grade/compare.h"
-#include "render/image_file.h"
+#include "grade/images/compare.h"
+#include "image/image_file.h"
 #include "run.h"
 
 namespace {
 
 using namespace farol::test;
-using farol::render::Image;
+using farol::image::Image;
 using nlohmann::json;
 
-Image picture(const std::string& name) { return farol::render::decodeImage(readFile(name), name); }
+Image picture(const std::string& name) { return farol::image::decodeImage(readFile(name), name); }
 
 Image draw(const std::string& arguments) {
     const Outcome found = run("render " + arguments + " -o p.png");
@@ -101,6 +101,26 @@ TEST_CASE("scenes come from stdin, and assets from where they are said to be") {
     CHECK(run("render in/scene.xml -o q.png --assets parts").status == 0);
 }
 
+TEST_CASE("a folder is opened at its scene, and files are found above a scene by --assets") {
+    freshFolder();
+    writeFile("project/pom.xml", "<project/>");
+    writeFile("project/a/b/test.xml",
+              "<world><group><models><model file=\"../m/box.3d\"/></models></group></world>");
+    writeFile("project/m/box.3d", "");
+    REQUIRE(run("generate box 2 1 project/m/box.3d").status == 0);
+    CHECK(run("render project -o p.png").status == 0);
+    const Outcome inside = run("render project/a/b/test.xml --assets project -o q.png --json");
+    CHECK(inside.status == 0);
+    CHECK_THAT(inside.out, Catch::Contains("asset.in-parent"));
+    CHECK(picture("p.png") == picture("q.png"));
+    // Without the folder that holds both it is a guess, and the message says how to do better.
+    const Outcome outside = run("render project/a/b/test.xml -o r.png");
+    CHECK(outside.status == 0);
+    CHECK_THAT(outside.err, Catch::Contains("--assets"));
+    writeFile("empty/read.me", "");
+    CHECK(run("render empty -o p.png").status == 1);
+}
+
 TEST_CASE("a mesh file alone is drawn") {
     freshFolder();
     for (const std::string name : {"m.3d", "m.obj", "m.ply", "m.3db"}) {
@@ -157,6 +177,33 @@ TEST_CASE("warnings are said, and with --strict they are errors") {
     CHECK(strict.status == 1);
     CHECK_THAT(strict.err, Catch::StartsWith("scene.xml:2:3: error: "));
     CHECK_FALSE(exists("q.png"));
+}
+
+TEST_CASE("a run prints at most 50 findings, and the same missing file once") {
+    freshFolder();
+    std::string models;
+    for (int i = 0; i < 132; ++i) models += "<model file=\"ghost.3d\"/>\n";
+    writeFile("ghosts.xml", "<world><group><models>" + models + "</models></group></world>");
+    const Outcome ghosts = run("validate ghosts.xml");
+    CHECK(ghosts.status == 1);
+    CHECK_THAT(ghosts.err, Catch::Contains("(132 times) [asset.missing]"));
+    CHECK(std::count(ghosts.err.begin(), ghosts.err.end(), '\n') < 5);
+    const json same = json::parse(run("validate ghosts.xml --json").out);
+    REQUIRE(same.at("diagnostics").size() == 1);
+    CHECK(same.at("diagnostics")[0].at("count") == 132);
+    CHECK(same.at("diagnosticsTotal") == 132);
+
+    models.clear();
+    for (int i = 0; i < 132; ++i)
+        models += "<model file=\"ghost-" + std::to_string(i) + ".3d\"/>\n";
+    writeFile("ghosts.xml", "<world><group><models>" + models + "</models></group></world>");
+    const Outcome many = run("validate ghosts.xml");
+    CHECK(std::count(many.err.begin(), many.err.end(), '\n') == 50);
+    CHECK_THAT(many.err, Catch::Contains("83 more findings are not shown"));
+    const json listed = json::parse(run("validate ghosts.xml --json").out);
+    CHECK(listed.at("diagnostics").size() == 50);
+    CHECK(listed.at("diagnosticsTotal") == 132);
+    CHECK(listed.at("diagnostics").back().at("message") == "83 more findings are not shown");
 }
 
 TEST_CASE("all is said on stdout with --json, and nothing on stderr") {
@@ -245,4 +292,23 @@ TEST_CASE("an animation is one file of frames, or numbered files") {
     CHECK(picture("loop.png") == draw("scene.xml"));  // viewers without animation show time 0
     CHECK(run("render scene.xml -o loop.png --frames 0").status == 2);
     CHECK(run("render scene.xml -o loop.png --fps nan").status == 2);
+}
+
+TEST_CASE("with placeholders the image is written, and the exit code is that of the errors") {
+    freshFolder();
+    writeFile("missing.xml",
+              "<world><group><models><model file=\"box_1.3d\"><texture file=\"gone.png\"/></model>"
+              "</models></group></world>");
+    CHECK(run("render missing.xml -o p.png --width 32 --height 32").status == 1);
+    const auto size = [](const char* file) { return readFile(file).size(); };
+    CHECK_FALSE(exists("p.png"));
+    const Outcome drawn =
+        run("render missing.xml -o p.png --width 32 --height 32 --missing placeholder");
+    CHECK(drawn.status == 1);
+    CHECK_THAT(drawn.err, Catch::Contains("gone.png") && Catch::Contains("asset.missing"));
+    CHECK(size("p.png") > 100);
+    CHECK(run("render missing.xml -o p.png --missing never").status == 2);
+    // Nothing is wrong: 0, as ever.
+    writeFile("scene.xml", kScene);
+    CHECK(run("render scene.xml -o p.png --missing placeholder").status == 0);
 }

@@ -1,3 +1,4 @@
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -6,12 +7,16 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <thread>
 #include <vector>
 
+#include "core/text.h"
 #include "run.h"
+#include "tests/support/paths.h"
+#include "tests/support/skip.h"
 
 // A class graded by the program itself: sandboxed workers, reports, going on after an interruption.
 using namespace farol::test;
@@ -77,7 +82,7 @@ class Running {
   public:
     explicit Running(std::vector<std::string> arguments) : pid_(::fork()) {
         if (pid_ != 0) return;
-        arguments.insert(arguments.begin(), FAROL_BINARY);
+        arguments.insert(arguments.begin(), farol::test::kProgram);
         std::vector<char*> raw;
         for (std::string& one : arguments) raw.push_back(one.data());
         raw.push_back(nullptr);
@@ -254,9 +259,14 @@ TEST_CASE("what was handed out with the task need not be handed in") {
     CHECK(gradeOf(report, "own").at("points") < 100.0);
 
     writeFile("strict.json", R"({"lend": false})");
-    REQUIRE(run("grade --reference task class -o strict --rubric strict.json").status == 0);
-    const json refused = gradeOf(reportOf("strict"), "without.xml");
-    CHECK(refused.at("tasks").at(0).at("grade").at("refused") == true);
+    const std::string strict = "grade --reference task class -o strict --rubric strict.json";
+    REQUIRE(run(strict + " --missing error").status == 0);
+    CHECK_THAT(gradeOf(reportOf("strict"), "without.xml").dump(),
+               Catch::Contains("\"refused\":true"));
+    REQUIRE(run(strict).status == 0);  // with placeholders, and the errors in the list
+    CHECK_THAT(gradeOf(reportOf("strict"), "without.xml").dump(),
+               Catch::Contains("asset.missing") && Catch::Contains("\"refused\":false"));
+    CHECK(gradeOf(reportOf("strict"), "without.xml").at("points") < 100.0);
 }
 
 TEST_CASE("a class is graded, whatever is in it") {
@@ -276,12 +286,16 @@ TEST_CASE("a class is graded, whatever is in it") {
     CHECK(finding.at("code") == "transform.angle-sign");
     CHECK(finding.at("line") == 7);
     CHECK_THAT(finding.at("message").get<std::string>(),
-               Catch::Contains("group 1") && Catch::Contains("(line 7)"));
+               Catch::Contains("the 1st group") && Catch::Contains("(line 7)"));
     CHECK_THAT(finding.at("excerpt").get<std::string>(), Catch::Contains("7 > "));
-    CHECK(gradeOf(report, "carla.xml").at("tasks").at(0).at("grade").at("refused") == true);
+    CHECK_THAT(gradeOf(report, "carla.xml").dump(), Catch::Contains("xml.unclosed"));
+    CHECK(gradeOf(report, "carla.xml").at("points") == 60.0);
+    CHECK(gradeOf(report, "carla.xml").at("graded") == true);
+    CHECK(gradeOf(report, "duarte").at("graded") == false);
+    CHECK_THAT(readFile("out/grades.csv"), Catch::Contains("\"\",\"\",,100.00,,,\"duarte\""));
     CHECK(gradeOf(report, "duarte").at("tasks").at(0).at("failure").at("code") == "grade.no-scene");
     CHECK(gradeOf(report, "eva.zip").at("points") == 0.0);
-    CHECK(gradeOf(report, "filipe.xml").at("passed") == false);
+    CHECK(gradeOf(report, "filipe.xml").at("points") < 100.0);
     CHECK_THAT(readFile("out/grades.csv"), Catch::Contains("\"'=1+1\""));
 
     // Again, and elsewhere with other jobs: the same bytes; what was graded is kept.
@@ -291,6 +305,160 @@ TEST_CASE("a class is graded, whatever is in it") {
     REQUIRE(run("grade --reference reference.xml class -o other --jobs 1").status == 0);
     for (const char* file : kReports)
         CHECK(readFile(std::string("out/") + file) == readFile(std::string("other/") + file));
+}
+
+namespace {
+
+/// Entries that hold nothing to grade, and the code of each row.
+std::map<std::string, std::string> makeUseless() {
+    const auto path = [](const std::string& name) { return (folder() / "class" / name).string(); };
+    std::map<std::string, std::string> codes;
+    for (const char* ending : {"xml", "zip", "tar", "tgz", "png", "jpg", "webp", "tga"}) {
+        const std::string name = std::string("empty.") + ending;
+        writeFile("class/" + name, "");
+        codes[name] = "grade.empty-file";
+    }
+    writeFile("class/emptied/scene.xml", "");
+    codes["emptied"] = "grade.empty-file";
+    fs::create_directories(path("nothing"));
+    codes["nothing"] = "grade.no-scene";
+    fs::create_directories(path("folder.xml"));
+    codes["folder.xml"] = "grade.no-scene";
+    REQUIRE(::mkfifo(path("pipe.xml").c_str(), 0600) == 0);
+    REQUIRE(::mkfifo(path("pipe.zip").c_str(), 0600) == 0);
+    fs::create_symlink("nowhere", path("dangling.xml"));
+    fs::create_symlink("loop.png", path("loop.png"));
+    fs::create_symlink("/dev/zero", path("device.xml"));
+    fs::create_directory_symlink("..", path("up"));
+    for (const char* name :
+         {"pipe.xml", "pipe.zip", "dangling.xml", "loop.png", "device.xml", "up"})
+        codes[name] = "asset.unreadable";
+    fs::create_directories(path("piped"));
+    REQUIRE(::mkfifo(path("piped/scene.xml").c_str(), 0600) == 0);
+    codes["piped"] = "grade.no-scene";
+    writeFile("class/huge.xml", "<world/>");
+    fs::resize_file(path("huge.xml"), std::uintmax_t{1} << 40U);  // sparse
+    codes["huge.xml"] = "limit.file-bytes";
+    fs::create_directories(path("stuffed"));
+    writeFile("class/stuffed/scene.xml", "<world><background texture=\"huge.png\"/></world>");
+    writeFile("class/stuffed/huge.png", "");
+    fs::resize_file(path("stuffed/huge.png"), std::uintmax_t{1} << 40U);
+    codes["stuffed"] = "limit.bundle";
+    return codes;
+}
+
+}  // namespace
+
+TEST_CASE("an entry that holds nothing to grade is one row, again and again") {
+    freshFolder();
+    writeFile("reference.xml", kReference);
+    writeFile("class/ana.xml", kReference);
+    writeFile("class/Ana.xml", kReference);
+    writeFile("class/torn.zip", std::string("PK\x03\x04\x14\x00", 6));
+    writeFile("class/torn.png", "\x89PNG\r\n");
+    const std::map<std::string, std::string> useless = makeUseless();
+    for (int round = 0; round < 2; ++round) {
+        const Outcome outcome = run("grade --reference reference.xml class -o out --jobs 2 --json");
+        INFO(outcome.err);
+        REQUIRE(outcome.status == 0);
+        const json report = reportOf("out");
+        CHECK(report.at("submissions").size() == useless.size() + 4);
+        for (const auto& [id, code] : useless) {
+            INFO(id);
+            const json row = gradeOf(report, id);
+            CHECK(row.at("points") == 0.0);
+            REQUIRE(row.at("tasks").at(0).contains("failure"));
+            CHECK(row.at("tasks").at(0).at("failure").at("code") == code);
+        }
+        for (const char* id : {"ana.xml", "Ana.xml"})
+            CHECK(gradeOf(report, id).at("points") == 100.0);
+        for (const char* id : {"torn.zip", "torn.png"})
+            CHECK(gradeOf(report, id).at("tasks").at(0).at("grade").at("refused") == true);
+        // What an earlier version kept of an empty submission, and what is no grade.
+        for (const auto& entry : fs::directory_iterator(folder() / "out" / "results"))
+            std::ofstream(entry.path(), std::ios::binary) << (round == 0 ? "\n" : "[]\n");
+    }
+}
+
+TEST_CASE("results that are no grades are graded again, and do not end the run") {
+    freshFolder();
+    writeFile("reference.xml", kReference);
+    writeFile("class/ana.xml", kReference);
+    for (const char* kept : {"", "\n", "null\n", "{}\n", "{\"points\":\"x\"}\n", "[1]\n", "{\n"}) {
+        REQUIRE(run("grade --reference reference.xml class -o out --jobs 1").status == 0);
+        CHECK(gradeOf(reportOf("out"), "ana.xml").at("points") == 100.0);
+        for (const auto& entry : fs::directory_iterator(folder() / "out" / "results"))
+            std::ofstream(entry.path(), std::ios::binary) << kept;
+    }
+}
+
+TEST_CASE("names of any bytes are in all reports, which are well-formed") {
+    freshFolder();
+    writeFile("reference.xml", kReference);
+    const std::string names[] = {
+        "Jo\xE3o.xml",  // Latin-1, and the same in UTF-8
+        "Jo\xC3\xA3o.xml",
+        "\xFF\xFE_7_assignsubmission_file_/scene.xml",
+        "line\nfeed\x01\x7F.xml",
+        "quotes \"'<&>.xml",
+        "=1+1,2.xml",
+        "-folder\xE9/\xE9.xml",
+        std::string(251, '\xE9') + ".xml",
+        std::string(255, 'n') + "/scene.xml",
+    };
+    for (const std::string& name : names) writeFile("class/" + name, kReference);
+    writeFile("class/br\xE9k.xml", replaced(kReference, "</world>", ""));
+    const Outcome outcome = run("grade --reference reference.xml class -o out --jobs 2");
+    INFO(outcome.err);
+    REQUIRE(outcome.status == 0);
+    CHECK(outcome.out.find('\x01') == std::string::npos);
+    for (const char* file : kReports) CHECK(farol::isUtf8(readFile(std::string("out/") + file)));
+    const json report = reportOf("out");
+    std::set<std::string> ids;
+    for (const json& row : report.at("submissions")) {
+        ids.insert(row.at("id"));
+        const bool isBroken = row.at("id") == "br\xC3\xA9k.xml";
+        CHECK((row.at("points") == 100.0) != isBroken);
+    }
+    CHECK(ids.size() == std::size(names) + 1);
+    CHECK(ids.count("Jo\xC3\xA3o.xml") == 1);
+    CHECK(ids.count("Jo\xC3\xA3o.xml (2)") == 1);
+    if (hasProgram("xmllint"))
+        CHECK(std::system(
+                  ("xmllint --noout '" + (folder() / "out/junit.xml").string() + "'").c_str()) ==
+              0);
+    REQUIRE(run("grade --reference reference.xml class -o out --json").status == 0);
+}
+
+TEST_CASE("a reference that cannot be used ends the run with its reason") {
+    freshFolder();
+    writeFile("class/ana.xml", kReference);
+    for (const char* name : {"empty.xml", "empty.png", "empty.zip", "folder/scene.xml"})
+        writeFile(name, "");
+    writeFile("torn.zip", "PK\x03\x04 torn");
+    fs::create_directories(folder() / "nothing");
+    REQUIRE(::mkfifo((folder() / "pipe.xml").c_str(), 0600) == 0);
+    fs::create_symlink("nowhere", folder() / "dangling.xml");
+    struct Case {
+        const char* reference;
+        const char* code;
+    };
+    for (const Case& one : {Case{"empty.xml", "[grade.empty-file]"},
+                            {"empty.png", "[grade.empty-file]"},
+                            {"empty.zip", "[grade.empty-file]"},
+                            {"folder", "[grade.empty-file]"},
+                            {"torn.zip", "["},
+                            {"nothing", "[grade.no-scene]"},
+                            {"pipe.xml", "[asset.unreadable]"},
+                            {"/dev/zero", "[asset.unreadable]"},
+                            {"dangling.xml", "[asset.missing]"}}) {
+        INFO(one.reference);
+        const Outcome outcome =
+            run(std::string("grade --reference ") + one.reference + " class -o out");
+        CHECK(outcome.status == 1);
+        CHECK_THAT(outcome.err, Catch::Contains(one.code));
+        CHECK_FALSE(exists("out/report.json"));
+    }
 }
 
 TEST_CASE("tasks of a folder are found by their names, and pictures are references too") {
@@ -312,16 +480,11 @@ TEST_CASE("tasks of a folder are found by their names, and pictures are referenc
     CHECK(gradeOf(pictured, "Bento_102_assignsubmission_file_").at("points") < 90.0);
 }
 
-TEST_CASE("what grade is told wrongly is said, with its exit code") {
+TEST_CASE("wrong arguments of grade are reported, with their exit code") {
     makeClass();
     writeFile("rubric.json", R"({"criteria": [{"measure": "beauty"}]})");
     fs::create_directories(folder() / "empty");
-    struct Case {
-        const char* arguments;
-        int status;
-        const char* says;
-    };
-    const Case one = GENERATE(values<Case>({
+    const auto [arguments, status, text] = GENERATE(table<const char*, int, const char*>({
         {"class -o out", 2, "--reference"},
         {"--reference nosuch.xml class -o out", 1, "[asset.missing]"},
         {"--reference reference.xml nosuch -o out", 1, "[asset.missing]"},
@@ -330,8 +493,8 @@ TEST_CASE("what grade is told wrongly is said, with its exit code") {
         {"--reference class/carla.xml class -o out", 1, "[xml."},
         {"--reference reference.xml class -o out --jobs 99", 2, "--jobs"},
     }));
-    INFO(one.arguments);
-    const Outcome found = run(std::string("grade ") + one.arguments);
-    CHECK(found.status == one.status);
-    CHECK_THAT(found.err, Catch::Contains(one.says));
+    INFO(arguments);
+    const Outcome outcome = run(std::string("grade ") + arguments);
+    CHECK(outcome.status == status);
+    CHECK_THAT(outcome.err, Catch::Contains(text));
 }

@@ -9,6 +9,8 @@
 #include <fstream>
 #include <iterator>
 
+#include "tests/support/paths.h"
+
 namespace farol::test {
 namespace {
 namespace fs = std::filesystem;
@@ -25,7 +27,7 @@ void freshFolder() {
     std::string name = Catch::getResultCapture().getCurrentTestName();
     for (char& c : name)
         if (!std::isalnum(static_cast<unsigned char>(c))) c = '-';
-    current = fs::path(FAROL_TEST_OUTPUT) / "cli" / name;
+    current = fs::path(farol::test::kTestOutput) / "cli" / name;
     fs::remove_all(current);
     fs::create_directories(current);
 }
@@ -47,11 +49,12 @@ std::string readFile(const std::string& name) {
 bool exists(const std::string& name) { return fs::exists(fs::symlink_status(folder() / name)); }
 
 Outcome run(const std::string& arguments, const std::string& input) {
-    const fs::path streams = fs::path(FAROL_TEST_OUTPUT) / "cli" / "streams" / folder().filename();
+    const fs::path streams =
+        fs::path(farol::test::kTestOutput) / "cli" / "streams" / folder().filename();
     fs::create_directories(streams);
     std::ofstream(streams / "in", std::ios::binary) << input;
-    const std::string command = "cd " + quoted(folder()) + " && " + quoted(FAROL_BINARY) + " " +
-                                arguments + " <" + quoted(streams / "in") + " >" +
+    const std::string command = "cd " + quoted(folder()) + " && " + quoted(farol::test::kProgram) +
+                                " " + arguments + " <" + quoted(streams / "in") + " >" +
                                 quoted(streams / "out") + " 2>" + quoted(streams / "err");
     const int result = std::system(command.c_str());
     const auto slurp = [](const fs::path& path) {

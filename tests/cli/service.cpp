@@ -9,6 +9,7 @@
 #include <catch2/catch.hpp>
 
 #include "run.h"
+#include "tests/support/paths.h"
 
 namespace farol::test {
 
@@ -16,8 +17,9 @@ Service::Service() {
     int ends[2];
     REQUIRE(::pipe2(ends, O_CLOEXEC) == 0);
     output_ = ends[0];
-    const std::string scenes = FAROL_SOURCE_DIR "/scenes", log = folder().string() + ".service.log";
-    std::string words[] = {FAROL_BINARY, "serve", "--port", "0", "--scenes", scenes};
+    const std::string scenes = std::string(farol::test::kSourceDir) + "/scenes",
+                      log = folder().string() + ".service.log";
+    std::string words[] = {farol::test::kProgram, "serve", "--port", "0", "--scenes", scenes};
     char* arguments[] = {words[0].data(), words[1].data(), words[2].data(), words[3].data(),
                          words[4].data(), words[5].data(), nullptr};
     posix_spawn_file_actions_t actions;
@@ -26,7 +28,7 @@ Service::Service() {
     posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, log.c_str(),
                                      O_WRONLY | O_CREAT | O_TRUNC, 0644);
     const int failed =
-        ::posix_spawn(&process_, FAROL_BINARY, &actions, nullptr, arguments, environ);
+        ::posix_spawn(&process_, farol::test::kProgram, &actions, nullptr, arguments, environ);
     posix_spawn_file_actions_destroy(&actions);
     ::close(ends[1]);
     REQUIRE(failed == 0);

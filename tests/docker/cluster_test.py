@@ -15,6 +15,8 @@ import unittest
 from cluster import ROOT, Cluster, Proxy, get, many, needed, send, wait_for
 
 SIZE = "width=32&height=32&aa=1"
+# As compose and Kubernetes have it.
+DRAIN_S = int(re.search(r'FAROL_DRAIN: "(\d+)"', (ROOT / "docker/compose.yaml").read_text()).group(1))
 
 
 def scene(number):
@@ -29,7 +31,8 @@ class Behind(unittest.TestCase):
         cls.folder = tempfile.TemporaryDirectory()
         for number in range(12):
             (pathlib.Path(cls.folder.name) / f"s{number}.xml").write_bytes(scene(9000 + number))
-        cls.cluster = Cluster(sys.argv[1], 3, "--cache-bytes", 0, scenes=cls.folder.name)
+        cls.cluster = Cluster(sys.argv[1], 3, "--cache-bytes", 0, "--drain", DRAIN_S,
+                              scenes=cls.folder.name)
 
     @classmethod
     def tearDownClass(cls):
@@ -133,6 +136,7 @@ class Behind(unittest.TestCase):
         stopping.set()
         for thread in threads:
             thread.join()
+        print(f"three renderers replaced: {dict(answers)}", flush=True)
         self.assertEqual(set(answers), {200}, answers)
 
     def test_5_a_burst_waits_and_an_overload_is_told_when_to_come_again(self):
@@ -161,6 +165,9 @@ class Behind(unittest.TestCase):
                     pass
         codes = collections.Counter()
         for status, headers, body in answers:
+            if status == 200:  # past the deadline, tried again by the proxy where a worker is new
+                codes["drawn"] += 1
+                continue
             self.assertEqual(status, 503)
             self.assertGreaterEqual(int(headers["Retry-After"]), 1)
             self.assertEqual(headers["Content-Type"], "application/problem+json")

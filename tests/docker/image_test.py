@@ -159,7 +159,7 @@ class Image(unittest.TestCase):
             here = pathlib.Path(folder)
             pictures = sorted((ROOT / "tests" / "fuzz" / "seeds" / "image").iterdir())
             self.assertGreaterEqual({one.suffix for one in pictures}, {
-                ".bmp", ".gif", ".hdr", ".jpg", ".png", ".ppm", ".tga", ".tif", ".webp"})
+                ".bmp", ".exr", ".gif", ".hdr", ".jpg", ".png", ".ppm", ".tga", ".tif", ".webp"})
             seen = set()
             with Container("-v", f"{folder}:/data", network="none") as service:
                 for one in pictures:

@@ -8,24 +8,25 @@
 #include <iostream>
 #include <memory>
 
-#include "render/image_file.h"
+#include "image/image_file.h"
 #include "render/renderer.h"
+#include "tests/support/paths.h"
+#include "tests/support/skip.h"
 
 // Course scenes against the pictures handed out with them. Nobody here made either, so these
-// figures say whether the conventions are right. docs/accuracy.md holds what was measured.
+// figures say whether the conventions are right. docs/benchmarks/accuracy.md holds what was
+// measured.
 using namespace farol;
 namespace fs = std::filesystem;
 
 namespace {
 
-const fs::path kShared = fs::path(FAROL_SOURCE_DIR) / ".." / "shared";
+const fs::path kShared = fs::path(farol::test::kSourceDir) / ".." / "shared";
 
-bool available() {
-    if (fs::exists(kShared / "data" / "course") && fs::exists(kShared / "tools" / "picture.py") &&
-        std::system("python3 --version > /dev/null 2>&1") == 0)
-        return true;
-    std::cout << "SKIPPED: ../shared/data/course, its picture.py or python3 is missing\n";
-    return false;
+void requireData() {
+    if (!fs::exists(kShared / "data" / "course")) test::skip("no folder ../shared/data/course");
+    if (!fs::exists(kShared / "tools" / "picture.py")) test::skip("no ../shared/tools/picture.py");
+    if (!test::hasProgram("python3")) test::skipMissing("no python3 (package python3)");
 }
 
 std::string readFile(const fs::path& path) {
@@ -43,8 +44,8 @@ fs::path renderTo(const fs::path& scene,
     for (const auto& [name, value] : options) render::applyOption(job.options, name, value);
     render::Renderer renderer;
     const render::Picture picture = renderer.render(job);
-    fs::create_directories(FAROL_TEST_OUTPUT);
-    const fs::path out = fs::path(FAROL_TEST_OUTPUT) / (scene.stem().string() + ".png");
+    fs::create_directories(farol::test::kTestOutput);
+    const fs::path out = fs::path(farol::test::kTestOutput) / (scene.stem().string() + ".png");
     std::ofstream(out, std::ios::binary) << picture.bytes;
     return out;
 }
@@ -52,8 +53,8 @@ fs::path renderTo(const fs::path& scene,
 /// The share in per cent of the pixels chosen by `counts` that are within `tolerance` of the
 /// nearest in value of the 3x3 pixels of `b` around them; axis-like pixels do not count.
 template <typename Counts>
-double share(const render::Image& a, const render::Image& b, int tolerance, Counts counts) {
-    const auto at = [](const render::Image& image, int x, int y) {
+double share(const image::Image& a, const image::Image& b, int tolerance, Counts counts) {
+    const auto at = [](const image::Image& image, int x, int y) {
         return &image.pixels[static_cast<std::size_t>(y * image.width + x) * 4];
     };
     const auto axisLike = [](const std::uint8_t* p) {
@@ -83,8 +84,8 @@ double share(const render::Image& a, const render::Image& b, int tolerance, Coun
     return all ? 100.0 * hit / all : 0.0;
 }
 
-render::Image cropped(const render::Image& image, int left, int top, int width, int height) {
-    render::Image out{width, height, {}};
+image::Image cropped(const image::Image& image, int left, int top, int width, int height) {
+    image::Image out{width, height, {}};
     for (int y = 0; y < height; ++y) {
         const auto* row =
             &image.pixels[static_cast<std::size_t>((top + y) * image.width + left) * 4];
@@ -110,7 +111,7 @@ std::string shellQuoted(const fs::path& path) { return "'" + path.string() + "' 
 }  // namespace
 
 TEST_CASE("course phases 1 and 2: the wireframes are those of the course") {
-    if (!available()) return;
+    requireData();
     struct Case {
         const char* scene;
         const char* crop;
@@ -137,7 +138,7 @@ TEST_CASE("course phases 1 and 2: the wireframes are those of the course") {
 }
 
 TEST_CASE("course phase 4: lit and textured scenes are those of the course") {
-    if (!available()) return;
+    requireData();
     struct Case {
         const char* scene;
         const char* picture;
@@ -161,17 +162,17 @@ TEST_CASE("course phase 4: lit and textured scenes are those of the course") {
 }
 
 TEST_CASE("course scene 4_6, object by object") {
-    if (!available()) return;
+    requireData();
     const fs::path folder = kShared / "data" / "course" / "phase_4";
-    const render::Image ours = render::decodeImage(
+    const image::Image ours = image::decodeImage(
         readFile(
             renderTo(folder / "test_4_6.xml",
                      {{"axes", "1"}, {"aa", "1"}, {"shading", "gouraud"}, {"filter", "linear"}})),
         "ours");
-    const render::Image theirs =
-        cropped(render::decodeImage(readFile(folder / "4_6.png"), "4_6.png"), 1, 31, 512, 512);
-    const render::Image ids =
-        render::decodeImage(readFile(renderTo(folder / "test_4_6.xml", {{"layer", "id"}})), "ids");
+    const image::Image theirs =
+        cropped(image::decodeImage(readFile(folder / "4_6.png"), "4_6.png"), 1, 31, 512, 512);
+    const image::Image ids =
+        image::decodeImage(readFile(renderTo(folder / "test_4_6.xml", {{"layer", "id"}})), "ids");
     const auto idAt = [&](int x, int y) {
         return static_cast<int>(ids.pixels[static_cast<std::size_t>(y * 512 + x) * 4 + 2]);
     };

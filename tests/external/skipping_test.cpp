@@ -5,16 +5,15 @@
 #include <iostream>
 
 #include "render/renderer.h"
+#include "tests/support/paths.h"
+#include "tests/support/skip.h"
 
 using namespace farol;
 namespace fs = std::filesystem;
 
 TEST_CASE("external scenes give the same pictures with nothing left out") {
-    const fs::path data = fs::path(FAROL_SOURCE_DIR) / ".." / "shared" / "data";
-    if (!fs::is_directory(data)) {
-        std::cout << "SKIPPED: ../shared/data is not there\n";
-        return;
-    }
+    const fs::path data = fs::path(farol::test::kSourceDir) / ".." / "shared" / "data";
+    if (!fs::is_directory(data)) test::skip("no folder ../shared/data");
     render::Renderer renderer;
     int pictures = 0;
     for (const auto& entry : fs::recursive_directory_iterator(data)) {
@@ -32,12 +31,12 @@ TEST_CASE("external scenes give the same pictures with nothing left out") {
             job.options.fovDeg = fov;
             job.drawUnseen = false;
             CAPTURE(file.string(), fov);
-            render::Image image, whole;
+            image::Image image, whole;
             try {
                 renderer.draw(job, image);
             } catch (const Error& error) {
                 // Some lack files; that is another test's matter.
-                std::cout << "SKIPPED: " << file.filename() << ": " << error.code() << '\n';
+                std::cout << "left out: " << file.filename() << ": " << error.code() << '\n';
                 break;
             }
             job.drawUnseen = true;

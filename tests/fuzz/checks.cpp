@@ -17,9 +17,14 @@ bool isCode(const std::string& code) {
            });
 }
 
-/// Lengths of the lines of a text. In XML a lone carriage return ends one too.
+/// Lengths of the lines of a text. In XML, and in texts without a line feed, a lone carriage return
+/// ends one too. Of UTF-16, whose bytes are no characters, no line is known to be shorter than all.
 std::vector<std::size_t> lengthsOf(std::string_view text, bool xml) {
+    if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))
+        return std::vector<std::size_t>(text.size() + 1, text.size());
     std::vector<std::size_t> lengths{0};
+    xml = xml || (text.find('\n') == std::string_view::npos &&
+                  text.substr(0, 4096).find('\0') == std::string_view::npos);
     for (std::size_t i = 0; i < text.size(); ++i) {
         const bool alone = text[i] == '\r' && (i + 1 == text.size() || text[i + 1] != '\n');
         ++lengths.back();
@@ -67,19 +72,29 @@ void checkError(const Error& error, std::string_view file, std::string_view text
 }
 
 void checkMesh(const generator::Mesh& mesh) {
-    const std::size_t count = mesh.positions.size();
-    require(mesh.indices.size() % 3 == 0, "part of a triangle");
-    require(mesh.normals.empty() || mesh.normals.size() == count, "another number of normals");
-    require(mesh.uvs.empty() || mesh.uvs.size() == count, "another number of UVs");
+    const std::size_t count = mesh.positions().size();
+    require(mesh.indices().size() % 3 == 0, "part of a triangle");
+    require(mesh.normals().empty() || mesh.normals().size() == count, "another number of normals");
+    require(mesh.uvs().empty() || mesh.uvs().size() == count, "another number of UVs");
+    require(mesh.colors().empty() || mesh.colors().size() == count, "another number of colours");
     require(mesh.triangles() <= 5'000'000, "more triangles than are allowed");
-    for (const std::uint32_t index : mesh.indices) require(index < count, "an index out of range");
-    for (const glm::vec3& p : mesh.positions) require(finite(p), "a position that is not finite");
-    for (const glm::vec3& n : mesh.normals) {
+    require(finite(glm::vec3(mesh.origin())), "an origin that is not finite");
+    std::size_t inParts = 0;
+    for (const generator::MeshPart& part : mesh.parts()) {
+        require(part.first == inParts, "parts that are not in order");
+        inParts += part.count;
+    }
+    require(mesh.parts().empty() || inParts == mesh.indices().size(),
+            "parts that do not cover the mesh");
+    for (const std::uint32_t index : mesh.indices())
+        require(index < count, "an index out of range");
+    for (const glm::vec3& p : mesh.positions()) require(finite(p), "a position that is not finite");
+    for (const glm::vec3& n : mesh.normals()) {
         require(finite(n), "a normal that is not finite");
         // Normalised in float: a few units in the last place.
         require(std::abs(glm::length(glm::dvec3(n)) - 1.0) < 1e-5, "a normal not of unit length");
     }
-    for (const glm::vec2& uv : mesh.uvs)
+    for (const glm::vec2& uv : mesh.uvs())
         require(std::isfinite(uv.x) && std::isfinite(uv.y), "a UV that is not finite");
 }
 

@@ -3,8 +3,8 @@
 #include <string>
 #include <string_view>
 
+#include "core/error.h"
 #include "generator/mesh.h"
-#include "scene/error.h"
 
 /// Promises that hold whatever the input was; each throws Finding where one does not.
 namespace farol::fuzz {

@@ -8,7 +8,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "scene/digest.h"
+#include "core/digest.h"
 #include "tests/fuzz/target.h"
 
 namespace farol::fuzz {
@@ -59,7 +59,7 @@ std::vector<std::string> readCorpus(const std::vector<std::string>& paths,
 
 std::string saveInput(const std::string& folder, const std::string& input) {
     fs::create_directories(folder);
-    const fs::path path = fs::path(folder) / ("finding-" + scene::contentDigest(input));
+    const fs::path path = fs::path(folder) / ("finding-" + contentDigest(input));
     std::ofstream(path, std::ios::binary) << input;
     return path.string();
 }

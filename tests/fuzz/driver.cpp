@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <charconv>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -23,6 +22,7 @@
 #include <string>
 #include <vector>
 
+#include "core/number.h"
 #include "tests/fuzz/corpus.h"
 #include "tests/fuzz/mutate.h"
 #include "tests/fuzz/target.h"
@@ -146,12 +146,9 @@ std::string describe(int status, const Settings& settings) {
 }
 
 std::uint64_t readNumber(const std::string& flag, const char* text) {
-    std::uint64_t value = 0;
-    const char* end = text + std::strlen(text);
-    if (const auto [at, failed] = std::from_chars(text, end, value);
-        failed != std::errc{} || at != end)
-        throw std::runtime_error(flag + " takes a whole number");
-    return value;
+    const auto value = parseExact<std::uint64_t>(text);
+    if (!value) throw std::runtime_error(flag + " takes a whole number");
+    return *value;
 }
 
 Settings readSettings(int count, char** words) {

@@ -1,6 +1,6 @@
 // Archives of scenes: the whole input is a zip, a tar or a gzipped tar.
-#include "scene/archive.h"
-#include "scene/assets.h"
+#include "scene/files/archive.h"
+#include "scene/files/assets.h"
 #include "tests/fuzz/checks.h"
 #include "tests/fuzz/target.h"
 
@@ -24,7 +24,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     try {
         const scene::Bundle bundle = scene::readArchive(bytes);
         require(bundle.files.count(bundle.main) == 1, "the document is not among the files");
-        require(bundle.files.size() <= scene::kMaxBundleFiles, "more files than may be");
+        require(bundle.files.size() <= scene::Assets::kMaxListed, "more files than may be");
         require(bundle.bytes() <= scene::kMaxBundleBytes, "more bytes than may be");
         for (const auto& [path, content] : bundle.files)
             require(scene::isSafePath(path), "a path that leads out of the bundle: " + path);

@@ -129,8 +129,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const http::Head head = http::checkHead(text);
     if (head.refusal) {
         const int status = head.refusal->status;
-        require(status >= 400 && status < 600 && !head.refusal->code.empty(), "no refusal");
-        reached(head.refusal->code + head.refusal->message);
+        require(status >= 400 && status < 600 && !head.refusal->message.empty(), "no refusal");
+        reached(head.refusal->message.id);
     } else {
         checkAccepted(head);
         reached(std::string(head.keepAlive ? "keep " : "") + (head.chunked ? "chunked " : "") +

@@ -3,8 +3,8 @@
 
 #include "render/options.h"
 #include "server/http/uri.h"
-#include "server/media.h"
-#include "server/parameters.h"
+#include "server/request/media.h"
+#include "server/request/parameters.h"
 #include "tests/fuzz/checks.h"
 #include "tests/fuzz/target.h"
 

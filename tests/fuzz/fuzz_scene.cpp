@@ -4,7 +4,7 @@
 
 #include "generator/registry.h"
 #include "scene/animation.h"
-#include "scene/reader.h"
+#include "scene/read/reader.h"
 #include "tests/fuzz/checks.h"
 #include "tests/fuzz/scene_words.h"
 #include "tests/fuzz/target.h"

@@ -11,39 +11,53 @@ namespace farol::fuzz {
 namespace {
 
 using Words = std::vector<std::string>;
+using generator::ShapeCall;
 
 /// Meshes up to here are made: finer ones have the same faults.
 constexpr std::size_t kMostTriangles = 20'000;
 
-void make(const Words& words, const scene::Assets& assets) {
+void make(const ShapeCall& call, const scene::Assets& assets) {
     try {
-        const std::size_t most = generator::countTriangles(words, assets);
+        const std::size_t most = generator::countTriangles(call, assets);
         require(most <= generator::kMaxTriangles, "more triangles than are allowed");
         if (most > kMostTriangles) return;
         for (const auto uv :
              {scene::UvLayout::face, scene::UvLayout::atlas, scene::UvLayout::layout2017}) {
-            const generator::Mesh mesh = generator::generate(words, assets, uv);
+            const generator::Mesh mesh = generator::generate(call, assets, uv);
             checkMesh(mesh);
             require(mesh.triangles() <= most, "more triangles than were counted");
         }
-        reached(words[0]);
+        reached(call.entry->name);
     } catch (const Error& error) {
         checkError(error);
     }
 }
 
-void refine(const Words& words, const scene::Assets& assets) {
+void refine(const ShapeCall& call, const scene::Assets& assets) {
     scene::Model model;
-    model.source = {scene::ModelSource::Kind::shape, "", words};
-    if (words.empty() || !generator::isOpen(model)) return;
+    model.source = {scene::ModelSource::Kind::shape, "", call};
+    if (!generator::isOpen(model)) return;
     for (const double error : {1e-12, 0.25, 1e12}) {
         try {
-            const Words fine = generator::refine(model, assets, {error, 8});
+            const ShapeCall fine = generator::refine(model, assets, {error, 8});
             require(generator::countTriangles(fine, assets) > 0, "refined to nothing");
-            reached("refined " + fine[0]);
+            reached("refined " + fine.entry->name);
         } catch (const Error& fault) {
             checkError(fault);
         }
+    }
+}
+
+void tryWords(const Words& words, const scene::Assets& assets) {
+    try {
+        const ShapeCall call = generator::parseCall(words);
+        if (!call.entry->takesFile || generator::isOneWord(call.file))
+            require(generator::parseCall(generator::splitWords(generator::textOf(call))) == call,
+                    "a call's text is another call");
+        make(call, assets);
+        refine(call, assets);
+    } catch (const Error& error) {
+        checkError(error);
     }
 }
 
@@ -52,7 +66,7 @@ void refine(const Words& words, const scene::Assets& assets) {
 const Target& target() {
     static const Target made = [] {
         Target out{{"txt"}, {"auto", "p.ply", "t.patch", "teapot.patch", "missing.ply"}, 512};
-        for (const generator::Shape& shape : generator::shapes()) {
+        for (const generator::ShapeEntry& shape : generator::shapes()) {
             out.tokens.push_back(shape.name);
             out.tokens.insert(out.tokens.end(), shape.aliases.begin(), shape.aliases.end());
         }
@@ -75,12 +89,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         const std::string command = text.substr(begin, end - begin);
         begin = end + 1;
         const auto words = generator::splitWords(command);
-        make(words, assets);
-        refine(words, assets);
-        if (const auto named = generator::wordsOfName(command)) make(*named, assets);
+        tryWords(words, assets);
+        if (const auto named = generator::wordsOfName(command)) tryWords(*named, assets);
         try {
             Diagnostics findings;
-            make(generator::wordsOfComment(words, command, {"scene.xml", 1, 1}, findings), assets);
+            make(generator::parseComment(words, command, {"scene.xml", 1, 1}, findings), assets);
             checkDiagnostics(findings);
         } catch (const Error& error) {
             checkError(error);

@@ -1,7 +1,7 @@
 // Bodies with scenes: the input's first line is the Content-Type, the rest is the body.
-#include "server/multipart.h"
-#include "server/parameters.h"
-#include "server/upload.h"
+#include "server/request/multipart.h"
+#include "server/request/parameters.h"
+#include "server/request/upload.h"
 #include "tests/fuzz/checks.h"
 #include "tests/fuzz/target.h"
 

@@ -2,7 +2,7 @@
 
 #include <set>
 
-#include "scene/tables.h"
+#include "scene/read/tables.h"
 
 namespace farol::fuzz {
 namespace {

@@ -4,8 +4,8 @@
 #include <string_view>
 #include <vector>
 
-#include "scene/assets.h"
-#include "scene/reader.h"
+#include "scene/files/assets.h"
+#include "scene/read/reader.h"
 
 /// What the targets that read scenes share.
 namespace farol::fuzz {

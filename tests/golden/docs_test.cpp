@@ -8,18 +8,20 @@
 #include <set>
 #include <sstream>
 
-#include "render/image_file.h"
+#include "image/image_file.h"
 #include "render/options.h"
 #include "render/renderer.h"
+#include "tests/support/paths.h"
+#include "tests/support/skip.h"
 
-// docs/scene-language.md against its examples, and they against the schema, the renderer and the
-// pictures that scripts/docs-pictures made of them.
+// Compares docs/scene-language.md with its examples, and these with the schema, the renderer and
+// the images that scripts/docs-pictures made of them.
 using namespace farol;
 namespace fs = std::filesystem;
 
 namespace {
 
-const fs::path kSource(FAROL_SOURCE_DIR);
+const fs::path kSource(farol::test::kSourceDir);
 const fs::path kDocs = kSource / "docs";
 
 std::string readFile(const fs::path& path) {
@@ -84,8 +86,8 @@ render::Job jobOf(const fs::path& example, const std::string& xml, const std::st
     return job;
 }
 
-/// The share of pixels that differ by more than 24 levels in some channel.
-double shareOff(const render::Image& a, const render::Image& b) {
+/// Returns the share of pixels that differ by more than 2 levels in some channel.
+double shareOff(const image::Image& a, const image::Image& b) {
     REQUIRE(a.width == b.width);
     REQUIRE(a.height == b.height);
     std::size_t off = 0;
@@ -93,7 +95,7 @@ double shareOff(const render::Image& a, const render::Image& b) {
         int most = 0;
         for (std::size_t c = 0; c < 3; ++c)
             most = std::max(most, std::abs(int{a.pixels[i + c]} - int{b.pixels[i + c]}));
-        off += most > 24 ? 1 : 0;
+        off += most > 2 ? 1 : 0;
     }
     return static_cast<double>(off) * 4.0 / static_cast<double>(a.pixels.size());
 }
@@ -117,18 +119,19 @@ TEST_CASE("every example of the documentation renders strictly and looks as its 
             const render::Picture made = renderer.render(jobOf(example, xml, drawing.options));
             for (const Diagnostic& finding : made.diagnostics)
                 CHECK(finding.severity == Severity::info);
-            const render::Image want = render::decodeImage(readFile(path), drawing.name);
-            const render::Image have = render::decodeImage(made.bytes, drawing.name);
-            // Goldens hold each level; these pictures need to show what is said under them only:
-            // an edge may move with the tessellation, a face may not change.
+            const image::Image want = image::decodeImage(readFile(path), drawing.name);
+            const image::Image have = image::decodeImage(made.bytes, drawing.name);
+            // Other processors' software GL rounds differently: up to 2 levels, and in one pixel of
+            // a thousand more.
             const double off = shareOff(want, have);
-            if (off > 0.01) {
-                fs::create_directories(FAROL_TEST_OUTPUT);
-                std::ofstream(fs::path(FAROL_TEST_OUTPUT) / ("docs-" + drawing.name + ".png"),
-                              std::ios::binary)
+            if (off > 0.001) {
+                fs::create_directories(farol::test::kTestOutput);
+                std::ofstream(
+                    fs::path(farol::test::kTestOutput) / ("docs-" + drawing.name + ".png"),
+                    std::ios::binary)
                     << made.bytes;
             }
-            CHECK(off <= 0.01);  // else look at it, and run scripts/docs-pictures
+            CHECK(off <= 0.001);  // else look at it, and run scripts/docs-pictures
         }
     }
     CHECK(drawn.size() > 90);
@@ -138,11 +141,11 @@ TEST_CASE("every example of the documentation renders strictly and looks as its 
     }
 }
 
-TEST_CASE("scripts/docs-pictures draws the pictures of the examples that it is told") {
-    const fs::path out = fs::path(FAROL_TEST_OUTPUT) / "docs-pictures";
+TEST_CASE("scripts/docs-pictures renders the examples that its arguments name") {
+    const fs::path out = fs::path(farol::test::kTestOutput) / "docs-pictures";
     fs::remove_all(out);
     const auto runs = [&](const std::string& names) {
-        return std::system(("FAROL='" FAROL_BINARY "' '" +
+        return std::system((std::string("FAROL='") + farol::test::kProgram + "' '" +
                             (kSource / "scripts" / "docs-pictures").string() + "' '" +
                             out.string() + "' " + names + " > /dev/null 2>&1")
                                .c_str()) == 0;
@@ -152,22 +155,19 @@ TEST_CASE("scripts/docs-pictures draws the pictures of the examples that it is t
     for (const auto& entry : fs::directory_iterator(out)) {
         const std::string name = entry.path().filename().string();
         made.insert(name);
-        CHECK(shareOff(render::decodeImage(readFile(entry.path()), name),
-                       render::decodeImage(readFile(kDocs / "pictures" / name), name)) <= 0.01);
+        CHECK(shareOff(image::decodeImage(readFile(entry.path()), name),
+                       image::decodeImage(readFile(kDocs / "pictures" / name), name)) <= 0.001);
     }
     CHECK(made == std::set<std::string>{"aa-1.png", "aa-8.png", "window.png"});
     CHECK_FALSE(runs("no-such-example"));
 }
 
 TEST_CASE("every example of the documentation is valid by the schema") {
-    if (std::system("xmllint --version > /dev/null 2>&1") != 0) {
-        WARN("skipped: xmllint is not installed; scripts/setup installs it");
-        return;
-    }
+    if (!test::hasProgram("xmllint")) test::skipMissing("no xmllint (package libxml2-utils)");
     std::string files;
     for (const fs::path& example : examples()) files += " '" + example.string() + "'";
-    const fs::path log = fs::path(FAROL_TEST_OUTPUT) / "docs-schema.txt";
-    fs::create_directories(FAROL_TEST_OUTPUT);
+    const fs::path log = fs::path(farol::test::kTestOutput) / "docs-schema.txt";
+    fs::create_directories(farol::test::kTestOutput);
     const int status =
         std::system(("xmllint --noout --schema '" + (kSource / "api" / "scene.xsd").string() + "'" +
                      files + " > '" + log.string() + "' 2>&1")

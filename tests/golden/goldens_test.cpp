@@ -6,9 +6,10 @@
 #include <set>
 #include <sstream>
 
-#include "render/encode.h"
-#include "render/image_file.h"
+#include "image/format.h"
+#include "image/image_file.h"
 #include "render/renderer.h"
+#include "tests/support/paths.h"
 
 // Every example scene against the picture it gave when somebody last looked at it, and against a
 // budget of draw calls. FAROL_UPDATE_GOLDENS=1 writes the pictures anew and fails: look at them,
@@ -18,7 +19,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const fs::path kSource(FAROL_SOURCE_DIR);
+const fs::path kSource(farol::test::kSourceDir);
 const fs::path kGolden = kSource / "tests" / "golden";
 constexpr int kLongestSide = 320;  // px
 
@@ -101,21 +102,21 @@ TEST_CASE("example scenes give their golden pictures within their draw-call budg
         if (update) writeFile(path, picture.bytes);
         CHECK_FALSE(update);
         if (!fs::exists(path)) {
-            writeFile(fs::path(FAROL_TEST_OUTPUT) / name.str(), picture.bytes);
+            writeFile(fs::path(farol::test::kTestOutput) / name.str(), picture.bytes);
             FAIL_CHECK(
                 "there is no golden picture; run with FAROL_UPDATE_GOLDENS=1 and look at it");
             continue;
         }
         const std::string bytes = readFile(path);
         if (bytes == picture.bytes) continue;
-        const render::Image want = render::decodeImage(bytes, name.str());
-        const render::Image have = render::decodeImage(picture.bytes, name.str());
+        const image::Image want = image::decodeImage(bytes, name.str());
+        const image::Image have = image::decodeImage(picture.bytes, name.str());
         REQUIRE(want.width == have.width);
         REQUIRE(want.height == have.height);
         // Another processor may round the last bit otherwise: 2 levels, 0.05 % of the pixels.
         int most = 0;
         std::size_t different = 0;
-        render::Image difference = have;
+        image::Image difference = have;
         for (std::size_t i = 0; i < want.pixels.size(); i += 4) {
             int worst = 0;
             for (std::size_t c = 0; c < 3; ++c) {
@@ -129,9 +130,9 @@ TEST_CASE("example scenes give their golden pictures within their draw-call budg
         const double share =
             100.0 * static_cast<double>(different) * 4.0 / static_cast<double>(want.pixels.size());
         if (most > 2 || share > 0.05) {
-            writeFile(fs::path(FAROL_TEST_OUTPUT) / name.str(), picture.bytes);
-            writeFile(fs::path(FAROL_TEST_OUTPUT) / ("diff-" + name.str()),
-                      render::encodePng(difference));
+            writeFile(fs::path(farol::test::kTestOutput) / name.str(), picture.bytes);
+            writeFile(fs::path(farol::test::kTestOutput) / ("diff-" + name.str()),
+                      image::encodePng(difference));
         }
         CHECK(most <= 2);
         CHECK(share <= 0.05);

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cstdio>
 #include <cstdlib>
@@ -27,16 +28,15 @@ grade::Rubric rubric() {
 }
 
 bool names(const grade::Grade& grade, const Variant& variant) {
-    for (const grade::CostedFinding& one : grade.findings)
+    for (const grade::GradedCause& one : grade.causes)
         for (const std::string& code : variant.codes)
-            if (one.finding.code == code) return true;
+            if (one.code == code) return true;
     return false;
 }
 
 std::string told(const grade::Grade& grade) {
     std::string out;
-    for (const auto& one : grade.findings)
-        out += "\n    " + one.finding.code + ": " + one.finding.message;
+    for (const auto& one : grade.causes) out += "\n    " + one.code + ": " + one.message;
     for (const auto& one : grade.criteria)
         if (one.points < one.most) out += "\n    " + one.reason;
     for (const auto& one : grade.diagnostics)
@@ -55,7 +55,12 @@ Line runAll(grade::Grader& grader, const std::vector<ReferenceScene>& scenes,
                                                 subjectOf(*xml, work.files), rubric());
         const double loss = grade.most - grade.points;
         ++line.scenes;
-        if (wrong && !grade.visible && !grade.refused) {
+        // A round object turned about its own axis, or a cause that no object shows.
+        constexpr double kDivisions = 0.005;  // of the work
+        const bool isSame = grade.unexplainedShare < kDivisions &&
+                            std::none_of(grade.causes.begin(), grade.causes.end(),
+                                         [](const grade::GradedCause& one) { return one.isSeen; });
+        if (wrong && (!grade.visible || isSame) && !grade.notGraded) {
             std::cout << variant.name << " in " << reference.name << ": not to be seen\n";
             continue;
         }
@@ -66,7 +71,7 @@ Line runAll(grade::Grader& grader, const std::vector<ReferenceScene>& scenes,
         line.least = std::min(line.least, loss);
         line.most = std::max(line.most, loss);
         const bool missed = wrong ? loss <= 0.0 || !names(grade, variant) : loss > 1.0;
-        if (missed || grade.refused)
+        if (missed || grade.notGraded)
             std::cout << variant.name << " in " << reference.name << ": loses " << loss
                       << told(grade) << "\n";
     }

@@ -8,6 +8,7 @@
 #include "generator/io/mesh_file.h"
 #include "generator/registry.h"
 #include "render/prepare.h"
+#include "tests/support/paths.h"
 
 namespace farol::test {
 namespace {
@@ -88,7 +89,7 @@ std::string sheetsXml() {
 }  // namespace
 
 std::vector<ReferenceScene> referenceScenes() {
-    const fs::path root = fs::path(FAROL_SOURCE_DIR) / "scenes";
+    const fs::path root = fs::path(farol::test::kSourceDir) / "scenes";
     std::vector<ReferenceScene> all;
     std::set<std::string> kept;
     // Those that are drawn quickly; the others show nothing more of a grader.
@@ -143,18 +144,24 @@ std::vector<Placed> modelsOf(scene::Scene& scene) {
 }
 
 bool replaceMesh(Work& work, scene::Model& model, const std::string& file,
-                 void (*change)(generator::Mesh&)) {
+                 void (*change)(generator::MeshArrays&)) {
     if (generator::isOpen(model) || model.revolve) return false;
-    generator::Mesh mesh = generator::load(model, *work.assets);
-    change(mesh);
-    work.files[file] = generator::io::encodeMesh(mesh, *generator::io::formatOf(file));
+    generator::MeshArrays arrays = generator::load(model, *work.assets).arrays();
+    change(arrays);
+    work.files[file] = generator::io::encodeMesh(generator::Mesh(std::move(arrays)),
+                                                 *generator::io::formatOf(file));
     model.file = file;
     model.command.clear();
     model.uv = scene::UvLayout::face;
     return true;
 }
 
-void turnTriangles(generator::Mesh& mesh) {
+std::string shapeNameOf(const scene::Model& model) {
+    const generator::ShapeEntry* entry = model.source.shape.entry;
+    return entry != nullptr ? entry->name : "";
+}
+
+void turnTriangles(generator::MeshArrays& mesh) {
     for (std::size_t t = 0; t + 2 < mesh.indices.size(); t += 3)
         std::swap(mesh.indices[t + 1], mesh.indices[t + 2]);
 }

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "generator/mesh.h"
-#include "grade/grader.h"
+#include "grade/rubric/grader.h"
 #include "scene/scene.h"
 
 /// What students hand in: reference scenes, the mistakes people make with them, and changes that
@@ -59,9 +59,11 @@ std::vector<Placed> modelsOf(scene::Scene& scene);
 /// Puts a mesh file in the place of a model's mesh, as `change` makes it. False where the model has
 /// no mesh of its own to write (open divisions, profiles).
 bool replaceMesh(Work& work, scene::Model& model, const std::string& file,
-                 void (*change)(generator::Mesh&));
+                 void (*change)(generator::MeshArrays&));
+/// Returns the name of the model's shape; "" where it is none.
+std::string shapeNameOf(const scene::Model& model);
 
 /// Every triangle the other way round; normals stay.
-void turnTriangles(generator::Mesh& mesh);
+void turnTriangles(generator::MeshArrays& mesh);
 
 }  // namespace farol::test

@@ -5,9 +5,9 @@
 #include <regex>
 
 #include "classroom.h"
-#include "render/encode.h"
-#include "render/image_file.h"
-#include "scene/writer.h"
+#include "image/format.h"
+#include "image/image_file.h"
+#include "tests/support/scene_writer.h"
 
 namespace farol::test {
 namespace {
@@ -107,11 +107,11 @@ Result allMeshes(Work& work, const char* ending, Change change) {
 }
 
 Result otherFormat(Work& work) {
-    return allMeshes(work, ".ply", [](generator::Mesh&) {});
+    return allMeshes(work, ".ply", [](generator::MeshArrays&) {});
 }
 
 Result otherOrder(Work& work) {
-    return allMeshes(work, ".obj", [](generator::Mesh& mesh) {
+    return allMeshes(work, ".obj", [](generator::MeshArrays& mesh) {
         std::reverse(mesh.indices.begin(), mesh.indices.end());
         for (std::size_t t = 0; t + 2 < mesh.indices.size(); t += 3)
             std::swap(mesh.indices[t], mesh.indices[t + 1]);
@@ -176,21 +176,11 @@ Result pictureFormat(Work& work) {
         if (!texture || texture->path.empty()) continue;
         const std::string name = "again-" + texture->path + ".png";
         work.files[name] =
-            render::encodePng(render::decodeImage(work.files.at(texture->path), texture->path));
+            image::encodePng(image::decodeImage(work.files.at(texture->path), texture->path));
         texture->file = name;
         any = true;
     }
     return any ? written(work) : Result();
-}
-
-/// The reader turns it, and says so.
-Result closedMeshTurned(Work& work) {
-    for (const Placed& one : modelsOf(work.scene)) {
-        const auto& words = one.model->source.words;
-        if (words.empty() || (words[0] != "sphere" && words[0] != "box")) continue;
-        if (replaceMesh(work, *one.model, "clockwise.obj", turnTriangles)) return written(work);
-    }
-    return {};
 }
 
 }  // namespace
@@ -210,7 +200,6 @@ std::vector<Variant> harmless() {
         {"groups split", {}, splitGroups},
         {"angles and whole turns", {}, wholeTurns},
         {"textures in another format", {}, pictureFormat},
-        {"triangles of a closed mesh clockwise", {}, closedMeshTurned},
     };
 }
 

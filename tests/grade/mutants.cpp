@@ -3,10 +3,11 @@
 #include <numbers>
 
 #include "classroom.h"
-#include "render/encode.h"
-#include "render/image_file.h"
+#include "generator/registry.h"
+#include "image/format.h"
+#include "image/image_file.h"
 #include "scene/animation.h"
-#include "scene/writer.h"
+#include "tests/support/scene_writer.h"
 
 namespace farol::test {
 namespace {
@@ -165,14 +166,14 @@ Result normalMatrix(Work& work) {
             continue;
         const glm::dvec3 f = scale->factors;
         const double least = std::min({f.x, f.y, f.z}), most = std::max({f.x, f.y, f.z});
-        const auto& words = one.model->source.words;
+        const std::string shape = shapeNameOf(*one.model);
         // Boxes and planes keep their normals under a scale along their axes.
-        if (least <= 0.0 || most < 1.3 * least || words.empty() || words[0] == "box" ||
-            words[0] == "plane")
+        if (least <= 0.0 || most < 1.3 * least || shape.empty() || shape == "box" ||
+            shape == "plane")
             continue;
         static glm::vec3 factors;
         factors = glm::vec3(f);
-        if (!replaceMesh(work, *one.model, "scaled.obj", [](generator::Mesh& mesh) {
+        if (!replaceMesh(work, *one.model, "scaled.obj", [](generator::MeshArrays& mesh) {
                 for (glm::vec3& position : mesh.positions) position *= factors;
                 for (glm::vec3& normal : mesh.normals) normal = glm::normalize(normal * factors);
             }))
@@ -184,13 +185,12 @@ Result normalMatrix(Work& work) {
 }
 
 bool isRound(const scene::Model& model) {
-    const auto& words = model.source.words;
-    return !words.empty() && (words[0] == "sphere" || words[0] == "cone" ||
-                              words[0] == "cylinder" || words[0] == "torus");
+    const std::string shape = shapeNameOf(model);
+    return shape == "sphere" || shape == "cone" || shape == "cylinder" || shape == "torus";
 }
 
 Result meshChanged(Work& work, const std::string& file, bool textured, bool round,
-                   void (*change)(generator::Mesh&)) {
+                   void (*change)(generator::MeshArrays&)) {
     return changeModel(work, [&](scene::Model& model) {
         if ((textured && (!model.texture || model.texture->mapping != scene::Mapping::mesh)) ||
             (round && !isRound(model)))
@@ -201,8 +201,8 @@ Result meshChanged(Work& work, const std::string& file, bool textured, bool roun
 
 Result flat(Work& work) {
     if (work.scene.lights.empty()) return {};
-    return meshChanged(work, "flat.obj", false, true, [](generator::Mesh& mesh) {
-        generator::Mesh out;
+    return meshChanged(work, "flat.obj", false, true, [](generator::MeshArrays& mesh) {
+        generator::MeshArrays out;
         for (std::size_t t = 0; t + 2 < mesh.indices.size(); t += 3) {
             const glm::vec3 a = mesh.positions[mesh.indices[t]],
                             b = mesh.positions[mesh.indices[t + 1]],
@@ -222,31 +222,28 @@ Result flat(Work& work) {
 }
 
 Result vFlipped(Work& work) {
-    return meshChanged(work, "flipped.obj", true, false, [](generator::Mesh& mesh) {
+    return meshChanged(work, "flipped.obj", true, false, [](generator::MeshArrays& mesh) {
         for (glm::vec2& uv : mesh.uvs) uv.y = 1.0F - uv.y;
     });
 }
 
 Result uMirrored(Work& work) {
-    return meshChanged(work, "mirrored.obj", true, false, [](generator::Mesh& mesh) {
+    return meshChanged(work, "mirrored.obj", true, false, [](generator::MeshArrays& mesh) {
         for (glm::vec2& uv : mesh.uvs) uv.x = 1.0F - uv.x;
     });
 }
 
 Result normalsInward(Work& work) {
     if (work.scene.lights.empty()) return {};
-    return meshChanged(work, "inward.obj", false, true, [](generator::Mesh& mesh) {
+    return meshChanged(work, "inward.obj", false, true, [](generator::MeshArrays& mesh) {
         for (glm::vec3& normal : mesh.normals) normal = -normal;
     });
 }
 
-/// Of surfaces that end: closed ones are turned when they are read, which is a harmless change.
 Result winding(Work& work) {
     return changeModel(work, [&](scene::Model& model) {
-        const auto& words = model.source.words;
-        const bool ends =
-            !words.empty() && (words[0] == "plane" || words[0] == "patch" || words[0] == "ring");
-        return ends && replaceMesh(work, model, "clockwise.obj", turnTriangles);
+        const std::string shape = shapeNameOf(model);
+        return !shape.empty() && replaceMesh(work, model, "clockwise.obj", turnTriangles);
     });
 }
 
@@ -261,13 +258,13 @@ Result culling(Work& work) {
 Result pictureUpsideDown(Work& work) {
     return changeModel(work, [&](scene::Model& model) {
         if (!model.texture || model.texture->path.empty()) return false;
-        render::Image image =
-            render::decodeImage(work.files.at(model.texture->path), model.texture->path);
+        image::Image image =
+            image::decodeImage(work.files.at(model.texture->path), model.texture->path);
         const auto row = static_cast<std::ptrdiff_t>(image.width) * 4;
         for (std::ptrdiff_t y = 0; y < image.height / 2; ++y)
             std::swap_ranges(image.pixels.begin() + y * row, image.pixels.begin() + (y + 1) * row,
                              image.pixels.begin() + (image.height - 1 - y) * row);
-        work.files["turned.png"] = render::encodePng(image);
+        work.files["turned.png"] = image::encodePng(image);
         model.texture->file = "turned.png";
         return true;
     });
@@ -352,19 +349,16 @@ Result fieldOfView(Work& work) {
 
 Result slicesAndStacks(Work& work) {
     return changeModel(work, [](scene::Model& model) {
-        const auto& words = model.source.words;
-        if (words.size() < 4 || model.autoLod ||
-            (words[0] != "sphere" && words[0] != "cone" && words[0] != "cylinder"))
+        const std::string shape = shapeNameOf(model);
+        if (model.autoLod || (shape != "sphere" && shape != "cone" && shape != "cylinder"))
             return false;
-        std::vector<std::string> swapped = words;
-        std::swap(swapped[words.size() - 1], swapped[words.size() - 2]);
-        if (swapped == words || swapped[words.size() - 2] == "1" ||
-            swapped[words.size() - 2] == "2")
-            return false;
+        scene::ShapeCall swapped = model.source.shape;
+        const std::size_t stacks = swapped.arguments.size() - 1;
+        if (!swapped.isWritten(stacks)) return false;
+        std::swap(swapped.arguments[stacks], swapped.arguments[stacks - 1]);
+        if (swapped == model.source.shape || swapped.count(stacks - 1) <= 2) return false;
         model.file.clear();
-        model.command.clear();
-        for (const std::string& word : swapped)
-            model.command += (model.command.empty() ? "" : " ") + word;
+        model.command = generator::textOf(swapped);
         return true;
     });
 }

@@ -21,10 +21,10 @@ struct Answer {
     std::string code() const;  ///< of a problem document, else ""
 };
 
-/// One connection to 127.0.0.1.
+/// One connection to 127.0.0.1, from there or from another loopback address.
 class RawClient {
   public:
-    explicit RawClient(int port);
+    explicit RawClient(int port, const std::string& from = "");
     ~RawClient();
     RawClient(const RawClient&) = delete;
     RawClient& operator=(const RawClient&) = delete;

@@ -10,16 +10,25 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/paths.h"
+
 namespace farol::test {
 
-/// `farol serve` with these arguments; its stdout is read, its stderr goes nowhere. With
-/// `fileBytes`, no file that it writes may grow beyond.
+/// What a Daemon is started with.
+struct Start {
+    rlim_t fileBytes = 0;    ///< no file that it writes may grow beyond; 0: no limit
+    rlim_t descriptors = 0;  ///< soft and hard limit; 0: the test's own
+    std::string closed{};    ///< of "0", "1" and "2", the descriptors that are closed
+    int stderrFd = -1;       ///< instead of nowhere
+};
+
+/// `farol serve` with these arguments; its stdout is read, its stderr goes nowhere.
 class Daemon {
   public:
-    explicit Daemon(const std::vector<std::string>& arguments, rlim_t fileBytes = 0) {
+    explicit Daemon(const std::vector<std::string>& arguments, const Start& start = {}) {
         int ends[2];
         REQUIRE(pipe2(ends, O_CLOEXEC) == 0);
-        std::vector<std::string> words = {FAROL_BINARY, "serve"};
+        std::vector<std::string> words = {farol::test::kProgram, "serve"};
         words.insert(words.end(), arguments.begin(), arguments.end());
         std::vector<char*> argv;
         for (std::string& word : words) argv.push_back(word.data());
@@ -28,10 +37,14 @@ class Daemon {
         REQUIRE(pid_ >= 0);
         if (pid_ == 0) {
             dup2(ends[1], 1);
-            const int nowhere = open("/dev/null", O_WRONLY);
-            dup2(nowhere, 2);
-            const rlimit limit{fileBytes, fileBytes};
-            if (fileBytes > 0) setrlimit(RLIMIT_FSIZE, &limit);
+            dup2(start.stderrFd >= 0 ? start.stderrFd : open("/dev/null", O_WRONLY), 2);
+            const auto limit = [](auto resource, rlim_t value) {
+                const rlimit both{value, value};
+                if (value > 0) setrlimit(resource, &both);
+            };
+            limit(RLIMIT_FSIZE, start.fileBytes);
+            limit(RLIMIT_NOFILE, start.descriptors);
+            for (const char fd : start.closed) close(fd - '0');
             execv(argv[0], argv.data());
             _exit(127);
         }

@@ -5,86 +5,139 @@
 #include <filesystem>
 #include <fstream>
 
+#include "server/store/memory_store.h"
+#include "tests/support/paths.h"
+#include "worker/tasks/check.h"
+#include "worker/tasks/compare.h"
+#include "worker/tasks/grade.h"
+#include "worker/tasks/inspect.h"
+#include "worker/tasks/mesh.h"
+#include "worker/tasks/notice.h"
+#include "worker/tasks/render.h"
+#include "worker/tasks/turntable.h"
+#include "worker/tasks/unpack.h"
+
 namespace farol::test {
 
-server::Done<render::Picture> FakeBackend::render(const render::Job& job, const std::string&,
-                                                  const server::Turn&) {
-    ++renders;
-    if (onRender) return {onRender(job), 0.5};
+namespace {
+
+using namespace worker;
+
+render::Picture pictureOf(const std::string& bytes, const std::string& type) {
     render::Picture picture;
-    picture.bytes = "picture of " + job.name;
-    static constexpr const char* kTypes[] = {"image/png", "image/jpeg", "image/webp"};
-    picture.contentType = kTypes[static_cast<std::size_t>(job.options.format)];
-    return {picture, 0.5};
+    picture.bytes = bytes;
+    picture.contentType = type;
+    return picture;
 }
 
-server::Done<render::SceneReport> FakeBackend::inspect(const render::Job& job) {
-    ++inspections;
-    if (onInspect) return {onInspect(job), 0.0};
-    render::SceneReport report;
-    report.title = "Title of " + job.name;
-    report.triangles = 12;
-    report.models = 1;
-    return {report, 0.0};
+}  // namespace
+
+FakeBackend::FakeBackend() {
+    on<RenderTask>([this](const RenderTask::Request& request) {
+        ++renders;
+        if (onRender) return onRender(request.job);
+        return pictureOf("picture of " + request.job.name,
+                         image::contentType(request.job.options.format));
+    });
+    on<InspectTask>([this](const InspectTask::Request& request) {
+        ++inspections;
+        if (onInspect) return onInspect(request.job);
+        render::SceneReport report;
+        report.title = "Title of " + request.job.name;
+        report.triangles = 12;
+        report.models = 1;
+        return report;
+    });
+    on<MeshTask>([](const MeshTask::Request& request) {
+        std::string text;
+        for (const std::string& word : request.words) text += word + " ";
+        return text + request.format;
+    });
+    on<TurntableTask>([this](const TurntableTask::Request& request) {
+        ++renders;
+        return pictureOf(std::to_string(request.frames) + " pictures of " + request.job.name,
+                         request.form == TurntableTask::Form::apng
+                             ? "image/apng"
+                             : "multipart/x-mixed-replace; boundary=f");
+    });
+    on<NoticeTask>([](const NoticeTask::Request& request) {
+        return pictureOf("picture of: " + request.text, "image/png");
+    });
+    on<UnpackTask>([](const UnpackTask::Request& request) {
+        const std::string document =
+            "<world>" + std::to_string(request.archive.size()) + "</world>";
+        return scene::Bundle{"scene.xml", {{"scene.xml", document}}};
+    });
+    on<GradeTask>([](const GradeTask::Request& request) {
+        GradeTask::Reply reply;
+        reply.json = "{\"points\":50,\"most\":100}";
+        reply.pictures = {request.submission.picture.value_or(""),
+                          request.reference.picture.value_or("")};
+        return reply;
+    });
+    on<CompareTask>([](const CompareTask::Request& request) {
+        return CompareTask::Reply{"{\"width\":1,\"height\":1}", request.first.picture.value_or(""),
+                                  request.second.picture.value_or("")};
+    });
+    on<CheckTask>([this](const CheckTask::Request&) {
+        if (onCheck) onCheck();
+        return CheckTask::Reply{};
+    });
 }
 
-server::Done<std::string> FakeBackend::mesh(const server::MeshJob& job) {
-    std::string text;
-    for (const std::string& word : job.words) text += word + " ";
-    return {text + job.format, 0.0};
+Done<std::any> FakeBackend::submit(PackedJob job, const RunOptions&) {
+    constexpr double kQueueMs = 0.5;
+    Unpacker unpacker(job.bytes);
+    std::string task;
+    unpacker(task);
+    return {tasks_.at(task)(unpacker), kQueueMs};
 }
 
-server::Done<render::Picture> FakeBackend::turntable(const render::Job& job,
-                                                     const server::Turntable& turn) {
-    ++renders;
-    render::Picture picture;
-    picture.bytes = std::to_string(turn.frames) + " pictures of " + job.name;
-    picture.contentType = turn.apng ? "image/apng" : "multipart/x-mixed-replace; boundary=f";
-    return {picture, 0.0};
+TestServer::TestServer(worker::Backend& backend, server::ServiceOptions options,
+                       const server::http::ListenOptions& listen, server::Logger::Sink log)
+    : logger_(std::move(log)),
+      service_(withStore(std::move(options)), backend, logger_),
+      listener_(listen, service_) {
+    service_.watch([this] { return listener_.traffic(); });
+    listener_.start();
 }
 
-server::Done<render::Picture> FakeBackend::notice(const std::string& text,
-                                                  const render::PictureOptions&) {
-    render::Picture picture;
-    picture.bytes = "picture of: " + text;
-    picture.contentType = "image/png";
-    return {picture, 0.0};
+TestServer::~TestServer() { stop(); }
+
+server::http::ListenOptions TestServer::anywhere() {
+    server::http::ListenOptions listen;
+    listen.port = 0;
+    listen.threads = 8;
+    return listen;
 }
 
-server::Done<scene::Bundle> FakeBackend::unpack(const std::string& archive) {
-    const std::string document = "<world>" + std::to_string(archive.size()) + "</world>";
-    return {scene::Bundle{"scene.xml", {{"scene.xml", document}}}, 0.0};
+server::ServiceOptions TestServer::withStore(server::ServiceOptions options) {
+    constexpr std::uint64_t kBytes = std::uint64_t{128} << 20U;
+    if (!options.store)
+        options.store = std::make_shared<server::store::MemoryStore>(
+            server::store::StoreLimits{kBytes, 10'000});
+    return options;
 }
 
-server::Done<server::GradeReply> FakeBackend::grade(const server::GradeJob& job) {
-    server::GradeReply reply;
-    reply.json = "{\"points\":50,\"most\":100}";
-    reply.points = 50;
-    reply.most = 100;
-    reply.pictures = {job.submission.picture, job.reference.picture};
-    return {reply, 0.0};
+void TestServer::drain() {
+    service_.drain();
+    listener_.drain();
 }
 
-server::Done<server::CompareReply> FakeBackend::compare(const server::CompareJob& job) {
-    return {{"{\"width\":1,\"height\":1}", job.first.picture, job.second.picture}, 0.0};
-}
-
-void FakeBackend::check() {
-    if (onCheck) onCheck();
+void TestServer::stop() {
+    drain();
+    listener_.stop();
 }
 
 FakeServer::FakeServer(server::ServiceOptions service,
                        std::function<void(server::http::ListenOptions&)> tune) {
-    server::http::ListenOptions listen;
-    listen.port = 0;
-    listen.threads = 8;
+    server::http::ListenOptions listen = TestServer::anywhere();
     if (tune) tune(listen);
-    server_ = std::make_unique<server::Server>(listen, std::move(service), backend,
-                                               [this](const std::string& line) {
-                                                   const std::lock_guard lock(mutex_);
-                                                   log_.push_back(line);
-                                               });
-    server_->start();
+    server_ = std::make_unique<TestServer>(backend, std::move(service), listen,
+                                           [this](const std::string& line) {
+                                               const std::lock_guard lock(mutex_);
+                                               log_.push_back(line);
+                                           });
 }
 
 std::vector<std::string> FakeServer::log() const {
@@ -93,7 +146,7 @@ std::vector<std::string> FakeServer::log() const {
 }
 
 TemporaryFolder::TemporaryFolder(const std::string& name)
-    : path_(std::string(FAROL_TEST_OUTPUT) + "/" + name + "-" + std::to_string(getpid())) {
+    : path_(std::string(farol::test::kTestOutput) + "/" + name + "-" + std::to_string(getpid())) {
     std::filesystem::remove_all(path_);
     std::filesystem::create_directories(path_);
 }

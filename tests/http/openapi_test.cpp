@@ -7,6 +7,7 @@
 
 #include "fixture.h"
 #include "render/options.h"
+#include "tests/support/paths.h"
 
 using namespace farol;
 using namespace farol::test;
@@ -26,13 +27,13 @@ struct Document {
 };
 
 Document readDocument() {
-    std::ifstream file(std::string(FAROL_SOURCE_DIR) + "/api/openapi.yaml");
+    std::ifstream file(std::string(farol::test::kSourceDir) + "/api/openapi.yaml");
     REQUIRE(file.good());
     Document out;
     std::string line, top, second, path, method, block, parameter;
     while (std::getline(file, line)) {
         const std::size_t indent = line.find_first_not_of(' ');
-        if (indent == std::string::npos) continue;
+        if (indent == std::string::npos || line[indent] == '#') continue;
         std::string key = line.substr(indent, line.find(':') - indent);
         if (const std::size_t at = line.find("'#/"); at != std::string::npos)
             out.references.insert(line.substr(at + 3, line.find('\'', at + 3) - at - 3));

@@ -3,8 +3,8 @@
 #include <catch2/catch.hpp>
 
 #include "fixture.h"
+#include "image/image_file.h"
 #include "real.h"
-#include "render/image_file.h"
 
 using namespace farol;
 using namespace farol::test;
@@ -19,7 +19,7 @@ server::ServiceOptions serving(const TemporaryFolder& folder) {
     return options;
 }
 
-std::uint32_t numberAt(const render::Image& image, int x, int y) {
+std::uint32_t numberAt(const image::Image& image, int x, int y) {
     const std::uint8_t* p = &image.pixels[static_cast<std::size_t>(y * image.width + x) * 4];
     return (std::uint32_t{p[0]} << 16U) | (std::uint32_t{p[1]} << 8U) | p[2];
 }
@@ -128,7 +128,7 @@ TEST_CASE("the numbers of a picture lead to the lines of the document") {
     const auto models = get(server.port(), kept.header("location") + "/models").json();
     CHECK(models["models"] == facts["models"]);
     CHECK(models["copies"] == facts["copies"]);
-    const render::Image image = render::decodeImage(
+    const image::Image image = image::decodeImage(
         post(server.port(), "/v1/render?layer=id&width=64&height=48", scene).body, "id.png");
     const auto at = [&](int x) {
         const std::uint32_t number = numberAt(image, x, 24);
@@ -165,7 +165,7 @@ TEST_CASE("a turntable of a real scene turns, and an error is drawn") {
     const Answer drawn =
         post(server.port(), "/v1/render?onerror=image&width=300&height=80", "<world>");
     CHECK(drawn.status == 400);
-    const render::Image image = render::decodeImage(drawn.body, "error.png");
+    const image::Image image = image::decodeImage(drawn.body, "error.png");
     CHECK(image.width == 300);
     CHECK(std::count(image.pixels.begin(), image.pixels.end(), 255) > 300 * 80 + 100);  // letters
 }

@@ -1,41 +1,31 @@
 #pragma once
 
 #include "fixture.h"
-#include "server/worker/pool.h"
+#include "tests/support/paths.h"
+#include "worker/pool.h"
 
 namespace farol::test {
 
 /// One pool for all tests that draw: a worker takes its time to start. What scenes it may read
 /// lies below the sources and the tests' output.
-inline server::worker::WorkerPool& realBackend() {
-    static server::Logger quiet([](const std::string&) {});
-    static server::worker::WorkerPool backend(
+inline worker::WorkerPool& realBackend() {
+    static worker::WorkerPool backend(
         [] {
-            server::worker::PoolOptions options;
+            worker::PoolOptions options;
             options.queue = {64, std::chrono::milliseconds(60'000),
                              std::chrono::milliseconds(60'000)};
-            options.worker.program = FAROL_BINARY;
-            options.worker.scenesDir = std::string(FAROL_SOURCE_DIR) + "/scenes";
+            options.worker.program = farol::test::kProgram;
+            options.worker.scenesDir = std::string(farol::test::kSourceDir) + "/scenes";
             return options;
         }(),
-        quiet);
+        [](const std::string&, const std::string&) {});
     return backend;
 }
 
 /// A server with the real backend; logs are dropped.
-struct RealServer {
+struct RealServer : TestServer {
     explicit RealServer(server::ServiceOptions options = {})
-        : server(listenAnywhere(), std::move(options), realBackend(), [](const std::string&) {}) {
-        server.start();
-    }
-    static server::http::ListenOptions listenAnywhere() {
-        server::http::ListenOptions listen;
-        listen.port = 0;
-        listen.threads = 8;
-        return listen;
-    }
-    int port() const { return server.port(); }
-    server::Server server;
+        : TestServer(realBackend(), std::move(options)) {}
 };
 
 inline std::string world(const std::string& content) {

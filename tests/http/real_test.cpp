@@ -5,8 +5,9 @@
 #include <thread>
 
 #include "fixture.h"
-#include "render/image_file.h"
-#include "server/worker/pool.h"
+#include "image/image_file.h"
+#include "tests/support/paths.h"
+#include "worker/pool.h"
 
 using namespace farol;
 using namespace farol::test;
@@ -42,7 +43,7 @@ TEST_CASE("a scene posted is a picture returned") {
         post(server.port(), "/v1/render?shading=solid&background=%23000040", scene);
     REQUIRE(answer.status == 200);
     CHECK(answer.header("content-type") == "image/png");
-    const render::Image image = render::decodeImage(answer.body, "answer.png");
+    const image::Image image = image::decodeImage(answer.body, "answer.png");
     REQUIRE(image.width == 64);
     REQUIRE(image.height == 48);
     const std::uint8_t* middle = &image.pixels[(24 * 64 + 32) * 4];
@@ -61,11 +62,31 @@ TEST_CASE("a scene posted is a picture returned") {
     CHECK(post(server.port(), "/v1/render?format=jpeg", scene).header("content-type") ==
           "image/jpeg");
     const Answer small = post(server.port(), "/v1/render?width=200&height=100&scale=0.5", scene);
-    const render::Image half = render::decodeImage(small.body, "half.png");
+    const image::Image half = image::decodeImage(small.body, "half.png");
     CHECK(half.width == 100);
     CHECK(half.height == 50);
     CHECK(post(server.port(), "/v1/render", scene).body ==
           post(server.port(), "/v1/render", scene).body);
+}
+
+TEST_CASE("placeholders are drawn on demand, with the errors in a bounded header") {
+    RealServer server;
+    std::string models;
+    for (int i = 0; i < 200; ++i)
+        models += "<model file=\"box_1.3d\"><texture file=\"gone" + std::to_string(i) +
+                  ".png\"/></model>";
+    const std::string scene = world("<group><models>" + models + "</models></group>");
+    CHECK(post(server.port(), "/v1/render", scene).status == 422);
+    const Answer answer = post(server.port(), "/v1/render?missing=placeholder", scene);
+    REQUIRE(answer.status == 200);
+    CHECK(answer.header("content-type") == "image/png");
+    const std::string header = answer.header("x-farol-diagnostics");
+    CHECK(header.size() < 4000);
+    const auto found = nlohmann::json::parse(header, nullptr, false);
+    CHECK(found.at(0).at("code") == "asset.missing");
+    CHECK(found.at(0).at("severity") == "error");
+    CHECK(found.at(0).at("message").get<std::string>().find("gone0.png") != std::string::npos);
+    CHECK(post(server.port(), "/v1/render?missing=never", scene).status == 400);
 }
 
 TEST_CASE("a scene with its texture is posted in parts") {
@@ -81,7 +102,7 @@ TEST_CASE("a scene with its texture is posted in parts") {
                    {"options", "", R"({"eye": [0,4,1], "shading":"solid"})", ""}});
     const Answer answer = post(server.port(), "/v1/render", with, kMultipartType);
     REQUIRE(answer.status == 200);
-    const render::Image image = render::decodeImage(answer.body, "answer.png");
+    const image::Image image = image::decodeImage(answer.body, "answer.png");
     const std::uint8_t* middle = &image.pixels[(24 * 64 + 32) * 4];
     CHECK(middle[1] > 200);
     CHECK(middle[0] < 60);
@@ -195,7 +216,7 @@ TEST_CASE("bad input is never a crash and never a 200") {
 
 TEST_CASE("a picture that was sent is kept, and says so") {
     server::ServiceOptions options;
-    options.scenesDir = std::string(FAROL_SOURCE_DIR) + "/scenes";
+    options.scenesDir = std::string(farol::test::kSourceDir) + "/scenes";
     RealServer server(options);
     const std::string id = get(server.port(), "/v1/scenes").json()["scenes"][0]["id"];
     const std::string path = "/v1/scenes/" + id + "/image?width=32&height=32";
@@ -215,7 +236,7 @@ TEST_CASE("a picture that was sent is kept, and says so") {
 
 TEST_CASE("frames of a session have a number, and an old one is not drawn") {
     server::ServiceOptions options;
-    options.scenesDir = std::string(FAROL_SOURCE_DIR) + "/scenes";
+    options.scenesDir = std::string(farol::test::kSourceDir) + "/scenes";
     RealServer server(options);
     const std::string id = get(server.port(), "/v1/scenes").json()["scenes"][0]["id"];
     const auto ask = [&](const std::string& query) {
@@ -279,7 +300,7 @@ TEST_CASE("primitives are generated, and their arguments checked") {
 
 TEST_CASE("the served examples have pictures, and broken ones are listed with their errors") {
     server::ServiceOptions options;
-    options.scenesDir = std::string(FAROL_SOURCE_DIR) + "/scenes";
+    options.scenesDir = std::string(farol::test::kSourceDir) + "/scenes";
     RealServer server(options);
     const auto list = get(server.port(), "/v1/scenes").json();
     REQUIRE(list["total"].get<int>() >= 6);

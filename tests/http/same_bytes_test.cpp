@@ -8,17 +8,18 @@
 
 #include "daemon.h"
 #include "fixture.h"
+#include "tests/support/paths.h"
 
 using namespace farol::test;
 
 TEST_CASE("pictures do not depend on the number of workers, nor on who asks beside") {
-    const std::string folder = std::string(FAROL_SOURCE_DIR) + "/scenes";
-    std::filesystem::create_directories(FAROL_TEST_OUTPUT);
+    const std::string folder = std::string(farol::test::kSourceDir) + "/scenes";
+    std::filesystem::create_directories(farol::test::kTestOutput);
     const std::vector<std::string> azimuths{"0", "40", "80", "120", "160", "200"};
     std::vector<std::string> expected;
     for (const std::string& azimuth : azimuths) {
-        const std::string out = std::string(FAROL_TEST_OUTPUT) + "/workers.png";
-        const std::string command = std::string("'") + FAROL_BINARY +
+        const std::string out = std::string(farol::test::kTestOutput) + "/workers.png";
+        const std::string command = std::string("'") + farol::test::kProgram +
                                     "' render --width 120 --height 90 --azimuth " + azimuth + " '" +
                                     folder + "/primitives/scene.xml' -o '" + out + "'";
         REQUIRE(std::system(command.c_str()) == 0);

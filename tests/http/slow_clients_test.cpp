@@ -4,6 +4,7 @@
 #include <thread>
 
 #include "fixture.h"
+#include "worker/messages.h"
 
 using namespace farol;
 using namespace farol::test;
@@ -213,7 +214,7 @@ TEST_CASE("who is refused for want of room is answered a little later, and holds
     constexpr int kThreads = 2, kClients = 12;
     FakeServer server({}, [](server::http::ListenOptions& listen) { listen.threads = kThreads; });
     server.backend.onRender = [](const render::Job&) -> render::Picture {
-        throw server::Busy("busy.queue", "All workers are busy and the queue is full.", 3);
+        throw worker::Busy(worker::message<"busy.queue">(), 3);
     };
     std::vector<std::unique_ptr<RawClient>> clients;
     const auto start = std::chrono::steady_clock::now();

@@ -7,7 +7,7 @@
 #include "fixture.h"
 #include "server/store/disk_store.h"
 #include "server/store/memory_store.h"
-#include "tests/archives.h"
+#include "tests/support/archives.h"
 
 using namespace farol;
 using namespace farol::test;
@@ -238,7 +238,8 @@ TEST_CASE("a disk that is full is said to be, and nothing is lost or half there"
     const std::string scene = "<world><group><models><model file=\"box_2_1.3d\"/></models></group>";
     // No file of this process may grow beyond 64 blocks of 1 KiB: what the disk says when it is
     // full.
-    Daemon daemon({"--port", "0", "--workers", "1", "--data", folder.path() + "/data"}, 64 * 1024);
+    Daemon daemon({"--port", "0", "--workers", "1", "--data", folder.path() + "/data"},
+                  {.fileBytes = 64 * 1024});
     const int port = portIn(daemon.firstLine());
     const Answer kept = post(port, kStore, scene + "</world>");
     REQUIRE(kept.status == 201);

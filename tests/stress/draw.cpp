@@ -25,7 +25,7 @@ std::string still(double away) {
            model(0, "sphere 1") + model(1.5, "cone 0.5 1") + model(-1.5, "box 1") + "</world>";
 }
 
-render::Image draw(const std::string& xml, render::PictureOptions options) {
+image::Image draw(const std::string& xml, render::PictureOptions options) {
     render::Job job;
     job.xml = xml;
     job.assets = std::make_shared<scene::BundleAssets>();
@@ -34,7 +34,7 @@ render::Image draw(const std::string& xml, render::PictureOptions options) {
         options.width = options.height = 64;
     job.options = options;
     render::Renderer renderer;
-    render::Image image;
+    image::Image image;
     renderer.draw(job, image);
     return image;
 }
@@ -48,21 +48,21 @@ std::string codeOf(const std::string& xml) {
     return "";
 }
 
-glm::ivec3 pixel(const render::Image& image, int x, int y) {
+glm::ivec3 pixel(const image::Image& image, int x, int y) {
     const std::size_t i = static_cast<std::size_t>(y * image.width + x) * 4;
     return {image.pixels[i], image.pixels[i + 1], image.pixels[i + 2]};
 }
 
-bool lit(const render::Image& image, int x, int y) { return pixel(image, x, y) != glm::ivec3(0); }
+bool lit(const image::Image& image, int x, int y) { return pixel(image, x, y) != glm::ivec3(0); }
 
-int covered(const render::Image& image) {
+int covered(const image::Image& image) {
     int count = 0;
     for (int y = 0; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x) count += lit(image, x, y) ? 1 : 0;
     return count;
 }
 
-double shareOff(const render::Image& a, const render::Image& b, int levels) {
+double shareOff(const image::Image& a, const image::Image& b, int levels) {
     if (a.pixels.size() != b.pixels.size() || a.width != b.width) return 1.0;
     int off = 0;
     for (int y = 0; y < a.height; ++y)

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "render/image.h"
+#include "image/image.h"
 #include "render/renderer.h"
 
 /// Small scenes drawn at 64 x 64 px, and what can be said of their pictures.
@@ -20,15 +20,15 @@ std::string world(const std::string& models, const std::string& camera = "");
 std::string still(double away);
 
 /// Draws with aa=1 unless said otherwise.
-render::Image draw(const std::string& xml, render::PictureOptions options = {});
+image::Image draw(const std::string& xml, render::PictureOptions options = {});
 /// The code of the error that drawing ends in; "" where it does not.
 std::string codeOf(const std::string& xml);
 
-glm::ivec3 pixel(const render::Image& image, int x, int y);
-bool lit(const render::Image& image, int x, int y);
+glm::ivec3 pixel(const image::Image& image, int x, int y);
+bool lit(const image::Image& image, int x, int y);
 /// Pixels that are not black.
-int covered(const render::Image& image);
+int covered(const image::Image& image);
 /// Share of pixels of which a channel differs by more than `levels`; 1 where the sizes do.
-double shareOff(const render::Image& a, const render::Image& b, int levels);
+double shareOff(const image::Image& a, const image::Image& b, int levels);
 
 }  // namespace farol::stress

@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 #include <random>
 
-#include "render/encode.h"
+#include "image/format.h"
 #include "tests/stress/draw.h"
 
 // Rows of the stress list about views: cracks, the largest picture, what lies beyond the far plane.
@@ -18,7 +18,7 @@ std::string glowing(const std::string& command) {
 }
 
 /// Dark pixels between two lit ones of a row or of a column: a convex shape has none.
-int gaps(const render::Image& image) {
+int gaps(const image::Image& image) {
     int count = 0;
     const auto along = [&](int lines, int length, auto isLit) {
         for (int line = 0; line < lines; ++line) {
@@ -63,7 +63,7 @@ TEST_CASE("closed shapes show no cracks to 100 jittered cameras") {
             job.assets = std::make_shared<scene::BundleAssets>();
             job.options.width = job.options.height = 160;
             job.options.samples = 1;
-            render::Image image;
+            image::Image image;
             renderer.draw(job, image);
             cracked += gaps(image) > 0 ? 1 : 0;
             least = std::min(least, covered(image));
@@ -76,9 +76,9 @@ TEST_CASE("closed shapes show no cracks to 100 jittered cameras") {
 
 TEST_CASE("the largest picture shows what a small one does, a larger one is refused") {
     render::PictureOptions options;
-    const render::Image small = draw(still(0.0), options);
+    const image::Image small = draw(still(0.0), options);
     options.width = options.height = 4096;
-    const render::Image large = draw(still(0.0), options);
+    const image::Image large = draw(still(0.0), options);
     REQUIRE(large.width == 4096);
     REQUIRE(large.height == 4096);
     // Each pixel of the small picture is the middle of 64 x 64 of the large one.
@@ -107,18 +107,18 @@ TEST_CASE("a skybox is seen however near the far plane is") {
             "<projection fov=\"60\" near=\"0.5\" far=\"" +
             std::to_string(far) +
             "\"/></camera><skybox width=\"500\" texture=\"sky.png\"/></world>";
-        render::Image cross{32, 24, {}};
+        image::Image cross{32, 24, {}};
         for (int i = 0; i < 32 * 24; ++i)
             for (const int value : {(i % 32) * 8, 90, 200, 255})
                 cross.pixels.push_back(static_cast<std::uint8_t>(value));
         job.assets = std::make_shared<scene::BundleAssets>(
-            std::map<std::string, std::string>{{"sky.png", render::encodePng(cross)}});
+            std::map<std::string, std::string>{{"sky.png", image::encodePng(cross)}});
         job.options.width = job.options.height = 64;
-        render::Image image;
+        image::Image image;
         render::Renderer().draw(job, image);
         return image;
     };
-    const render::Image near = behind(1.0);
+    const image::Image near = behind(1.0);
     CHECK(covered(near) == 64 * 64);
     CHECK(behind(100'000.0).pixels == near.pixels);
 }
@@ -130,20 +130,20 @@ TEST_CASE("surfaces are opaque, so that ties are those of opaque ones: the first
             R"(<model command="plane 2"><texture file="red.png"/></model>
                <model command="plane 2"><texture file="blue.png"/></model>)");
         const auto picture = [&](int red, int blue) {
-            render::Image image{4, 4, {}};
+            image::Image image{4, 4, {}};
             for (int i = 0; i < 16; ++i)
                 for (const int value : {red, 0, blue, alpha})
                     image.pixels.push_back(static_cast<std::uint8_t>(value));
-            return render::encodePng(image);
+            return image::encodePng(image);
         };
         job.assets = std::make_shared<scene::BundleAssets>(std::map<std::string, std::string>{
             {"red.png", picture(255, 0)}, {"blue.png", picture(0, 255)}});
         job.options.samples = 4;
-        render::Image image;
+        image::Image image;
         render::Renderer().draw(job, image);
         return image;
     };
-    const render::Image opaque = two(255);
+    const image::Image opaque = two(255);
     CHECK(pixel(opaque, 32, 40).r > 50);
     for (const int alpha : {0, 127}) CHECK(two(alpha).pixels == opaque.pixels);
     for (std::size_t i = 2; i < opaque.pixels.size(); i += 4) CHECK_FALSE(opaque.pixels[i] > 0);

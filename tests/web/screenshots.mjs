@@ -67,14 +67,12 @@ const views = {
     ]);
     await view.page.getByRole('button', { name: 'Grade', exact: true }).click();
     await view.page.getByText('5 graded.').waitFor({ timeout: 120000 });
-    await view.page.locator('.rows > li', { hasText: 'Bento' }).getByRole('button').first().click();
-    await view.page.waitForFunction(() => [...document.querySelectorAll('.details img')].slice(0, 2).every((one) => one.complete && one.naturalWidth));
-    await view.page.evaluate(() => {
-      const wide = innerWidth > 600;
-      scrollBy(0, (wide ? document.querySelector('.go') : document.querySelector('.details').parentElement).getBoundingClientRect().top - 12);
+    await view.page.locator('#list tbody tr', { hasText: 'Bento' }).click();
+    await view.page.evaluate(async () => {
+      await Promise.all([...document.querySelectorAll('#detail img')].map((one) => one.decode()));
+      scrollBy(0, document.querySelector(innerWidth > 900 ? '.go' : '#detail').getBoundingClientRect().top - 12);
     });
     await view.page.waitForTimeout(300);
-    await view.page.evaluate(() => Promise.all([...document.querySelectorAll('.details img')].filter((one) => one.getBoundingClientRect().top < innerHeight).map((one) => one.decode())));
   },
 };
 const places = { gallery: '#/', viewer: '#/scene/solar-system', editor: '#/scene/can-and-pawns', grade: '#/grade' };

@@ -1,5 +1,4 @@
-// The scene language for completion: elements and attributes from api/scene.xsd, and what they
-// mean from the tables of docs/scene-language.md.
+// The scene language for completion and inspector, from the reader's tables (api/schema.json).
 
 export interface AttributeEntry {
   name: string;
@@ -15,85 +14,71 @@ export interface ElementEntry {
   help?: string;
 }
 
-export interface LanguageSchema {
-  elements: ElementEntry[];
+interface AttributeRow {
+  name: string;
+  aliases?: string[];
+  type: 'number' | 'integer' | 'flag' | 'text' | 'word';
+  min?: number;
+  max?: number;
+  words?: string[][]; // each with its other spellings
+  default?: string;
+  meaning?: string;
 }
 
-const attribute = (tag: string, name: string): string => new RegExp(`\\b${name}="([^"]*)"`).exec(tag)?.[1] ?? '';
-
-/** The words of a simple type: "[cC][oO]" is a word in any case. */
-function wordsOf(schema: string): Map<string, string[]> {
-  const out = new Map<string, string[]>([['Flag', ['true', 'false']]]);
-  for (const [, name = '', body = ''] of schema.matchAll(/<xs:simpleType name="(\w[^"]*)">([\s\S]*?)<\/xs:simpleType>/g)) {
-    const patterns = [...body.matchAll(/<xs:pattern value="([^"]*)"/g)].map((match) => match[1] ?? '');
-    if (name === 'Flag' || patterns.length === 0) continue;
-    out.set(name, patterns.map((pattern) => pattern.replace(/\[(\w)\w\]/g, '$1')).filter((word) => /^[\w.-]+$/.test(word)));
-  }
-  return out;
+interface ElementRow {
+  name: string;
+  aliases?: string[];
+  summary?: string;
+  children?: string[];
+  attributes?: AttributeRow[];
 }
 
-interface Described {
-  help: string;
-  attributes: Map<string, string>; // canonical name -> meaning
-  aliases: Set<string>;
+const plain = (markdown: string): string => markdown.replaceAll('`', '');
+
+function valueOf({ type, min, max, words }: AttributeRow): string {
+  if (type === 'word') return (words ?? []).map(([word]) => word).join(', ');
+  if (type === 'flag') return 'true, false';
+  if (type === 'text') return 'text';
+  const kind = type === 'integer' ? 'whole number' : 'number';
+  if (min !== undefined && max !== undefined) return `${kind}, ${min} to ${max}`;
+  return min === undefined ? kind : min > 0 ? `${kind}, over 0` : `${kind}, ${min} or more`;
 }
 
-/** "### `<light>` (also `<lamp>`)" with its table of attributes. */
-function describe(page: string): Map<string, Described> {
-  const out = new Map<string, Described>();
-  for (const part of page.split(/^### /m).slice(1)) {
-    const name = /^`<(\w+)>`/.exec(part)?.[1];
-    if (!name) continue;
-    const attributes = new Map<string, string>(), aliases = new Set<string>();
-    for (const row of part.matchAll(/^\| `(\w+)` \|([^|]*)\|([^|]*)\|([^|]*)\|([^|]*)\|$/gm)) {
-      const [, key = '', also = '', value = '', otherwise = '', meaning = ''] = row;
-      const text = [meaning.trim(), value.trim(), otherwise.trim() && `default ${otherwise.trim()}`].filter(Boolean).join('; ');
-      attributes.set(key, text.replaceAll('`', ''));
-      for (const alias of also.matchAll(/`(\w+)`/g)) aliases.add(alias[1] ?? '');
-    }
-    const prose = part.split('\n').slice(1).find((line) => /^[A-Z]/.test(line)) ?? '';
-    out.set(name.toLowerCase(), { help: prose.replaceAll('`', ''), attributes, aliases });
-  }
-  return out;
+function attributeEntry(row: AttributeRow): AttributeEntry {
+  const values = row.type === 'flag' ? ['true', 'false'] : row.words?.flat().filter((word) => /^[\w.-]+$/.test(word));
+  const help = [row.meaning, valueOf(row), row.default && `default ${row.default}`].filter(Boolean).join('; ');
+  return { name: row.name, ...(values ? { values } : {}), help: plain(help) };
 }
 
-export function schemaOf(schema: string, page: string): LanguageSchema {
-  const words = wordsOf(schema), described = describe(page);
-  const types = new Map<string, { body: string }>();
-  for (const [, name = '', body = ''] of schema.matchAll(/<xs:complexType name="(\w+)">([\s\S]*?)<\/xs:complexType>/g)) types.set(name, { body });
-  const typeOf = new Map<string, string>(); // element -> type; aliases of an element have its type
-  const childrenOf = (body: string): string[] => {
-    const seen = new Set<string>(), out: string[] = [];
-    for (const [tag] of body.matchAll(/<xs:element [^>]*>/g)) {
-      const name = attribute(tag, 'name'), type = attribute(tag, 'type');
-      if (seen.has(type)) continue; // another spelling of the one before
-      seen.add(type);
-      typeOf.set(name, type);
-      out.push(name);
-    }
-    return out;
+const rowsOf = (tables: string): ElementRow[] => (JSON.parse(tables) as { elements: ElementRow[] }).elements;
+
+/** Every spelling of an element, or of an attribute of it; the usual one first. */
+export function spellingsOf(tables: string): (element: string, attribute?: string) => readonly string[] {
+  const rows = new Map(rowsOf(tables).map((row) => [row.name, row]));
+  return (element, attribute) => {
+    const owner = rows.get(element), row = attribute === undefined ? owner : owner?.attributes?.find(({ name }) => name === attribute);
+    if (!row) throw new Error(`the scene language has no ${element} ${attribute ?? ''}`);
+    return [row.name, ...(row.aliases ?? [])];
   };
-  const roots = ['world', 'scene'];
-  for (const name of roots) typeOf.set(name, 'World');
-  const children = new Map([...types].map(([name, { body }]) => [name, childrenOf(body)]));
-  const elements: ElementEntry[] = [];
-  for (const [name, type] of typeOf) {
-    const body = types.get(type)?.body ?? '';
-    const known = described.get(name.toLowerCase()) ?? (type === 'World' ? described.get('world') : undefined);
-    const seen = new Set<string>(), attributes: AttributeEntry[] = [];
-    for (const [tag] of body.matchAll(/<xs:attribute [^>]*>/g)) {
-      const key = attribute(tag, 'name'), values = words.get(attribute(tag, 'type'));
-      if (seen.has(key.toLowerCase()) || known?.aliases.has(key)) continue;
-      seen.add(key.toLowerCase());
-      const help = known?.attributes.get(key);
-      attributes.push({ name: key, ...(values ? { values } : {}), ...(help ? { help } : {}) });
+}
+
+/** Elements by each of their spellings. Of children the usual spelling is offered. */
+export function schemaOf(tables: string): { elements: ElementEntry[] } {
+  const rows = rowsOf(tables);
+  // The elements of <colors> are written like the material of a model.
+  const usual = new Map(rows.map(({ name, aliases }) => [name, name === 'namedColor' ? aliases?.[0] ?? name : name]));
+  const elements: ElementEntry[] = [], seen = new Set<string>();
+  for (const row of rows)
+    for (const name of [row.name, row.name.toLowerCase(), ...(row.aliases ?? [])]) {
+      if (name.toLowerCase() === 'namedcolor' || seen.has(name)) continue;
+      seen.add(name);
+      elements.push({
+        name,
+        children: (row.children ?? []).map((child) => usual.get(child) ?? child),
+        attributes: (row.attributes ?? []).map(attributeEntry),
+        ...(row.name === 'world' ? { top: true } : {}),
+        ...(row.summary ? { help: plain(row.summary) } : {}),
+      });
     }
-    // What the page documents comes first; the older spellings follow.
-    attributes.sort((a, b) => Number(!a.help) - Number(!b.help));
-    elements.push({
-      name, children: children.get(type) ?? [], attributes,
-      ...(roots.includes(name) ? { top: true } : {}), ...(known?.help ? { help: known.help } : {}),
-    });
-  }
   return { elements };
 }

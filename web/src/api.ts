@@ -27,6 +27,7 @@ export interface SceneFacts {
   camera?: LookAt;
   counts?: { models: number; lights: number; textures: number; triangles: number; textureBytes: number };
   diagnostics: Finding[];
+  problem?: { code: string; message: string }; // why it cannot be rendered
   links: { self: string; source: string; image: string; thumbnail: string; turntable?: string };
   upload?: boolean;
   expires?: string | null;
@@ -119,13 +120,13 @@ export async function patient<T>(ask: () => Promise<T>): Promise<T> {
 
 const json = async <T>(url: string, init?: RequestInit): Promise<T> => (await (await request(url, init)).json()) as T;
 
-export const scenePath = (id: string): string => `/v1/scenes/${id.split('/').map(encodeURIComponent).join('/')}`;
+export const scenePath = (id: string): string => `v1/scenes/${id.split('/').map(encodeURIComponent).join('/')}`;
 
 export const query = (options: Options): string =>
   new URLSearchParams(Object.entries(options).map(([key, value]) => [key, String(value)])).toString();
 
 export const listScenes = (page: number, words: string): Promise<ScenePage> =>
-  patient(() => json(`/v1/scenes?${query({ page, ...(words ? { q: words } : {}) })}`));
+  patient(() => json(`v1/scenes?${query({ page, ...(words ? { q: words } : {}) })}`));
 
 export const getScene = (id: string): Promise<SceneFacts> => patient(() => json(scenePath(id)));
 
@@ -138,7 +139,7 @@ export const deleteScene = async (id: string): Promise<void> => void (await requ
 
 /** Facts about a document that is sent, and the places of its models. */
 export const validate = (body: RequestInit, base: string | null): Promise<SceneFacts & Partial<ModelPlaces>> =>
-  json(`/v1/validate?${query(base === null ? { models: 1 } : { models: 1, base })}`, { method: 'POST', ...body });
+  json(`v1/validate?${query(base === null ? { models: 1 } : { models: 1, base })}`, { method: 'POST', ...body });
 
 const asSentence = (text: string): string => {
   const ended = /[.?!]\s*$/.test(text) ? text.trimEnd() : `${text.trimEnd()}.`;
@@ -150,6 +151,12 @@ export function sentence(finding: Finding, placed = true): string {
   const column = finding.column ? `, column ${finding.column}` : '';
   const where = finding.line && placed ? `Line ${finding.line}${column}: ` : '';
   return where + asSentence(finding.message);
+}
+
+/** Why a scene cannot be rendered: its finding, with a place, or the problem alone (a crash, a deadline). */
+export function faultOf({ diagnostics, problem }: SceneFacts): Finding | undefined {
+  const found = diagnostics.find((one) => one.severity === 'error' && (!problem || one.code === problem.code));
+  return found ?? (problem && { ...problem, severity: 'error' });
 }
 
 /** What went wrong, as findings, whatever was thrown. */

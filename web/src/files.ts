@@ -1,5 +1,5 @@
 // Files from dialogs and drops, with their paths.
-import type { NamedFile } from './scene/bundle.ts';
+import { isLitter, type NamedFile } from './scene/bundle.ts';
 
 /** The file dialog: files, or a folder with all that is in it. */
 export function chooseFiles(folder: boolean): Promise<NamedFile[]> {
@@ -14,8 +14,11 @@ export function chooseFiles(folder: boolean): Promise<NamedFile[]> {
   });
 }
 
+const maxListed = 50_000;
+
 async function walk(entry: FileSystemEntry, out: NamedFile[]): Promise<void> {
   const path = entry.fullPath.replace(/^\//, '');
+  if (out.length >= maxListed || isLitter(path)) return;
   if (entry.isFile) {
     const file = await new Promise<File>((done, failed) => (entry as FileSystemFileEntry).file(done, failed));
     out.push({ path, file });

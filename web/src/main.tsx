@@ -4,6 +4,7 @@ import './style/base.css';
 import './style/gallery.css';
 import './style/viewer.css';
 import './style/panel.css';
+import '../../grade/report/view.css';
 import './style/grade.css';
 
 render(<App />, document.getElementById('app') as HTMLElement);

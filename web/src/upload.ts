@@ -18,12 +18,12 @@ const fault = (title: string, message: string): void => {
 /** Sends what was dropped and opens it; what is wrong is shown as sentences. */
 export async function openFiles(files: readonly NamedFile[]): Promise<void> {
   if (files.length === 0) return fault('Nothing to open', 'There is no file among what was dropped');
-  const bundle = bundleOf(files);
+  const bundle = await bundleOf(files);
   if ('message' in bundle) return fault('This cannot be opened', bundle.message);
   uploading.value = bundle.name;
   uploadProblem.value = null;
   try {
-    const response = await patient(() => request(`/v1/scenes?${query({ public: 0 })}`, { method: 'POST', ...bundle.body() }));
+    const response = await patient(() => request(`v1/scenes?${query({ public: 0 })}`, { method: 'POST', ...bundle.body() }));
     const scene = (await response.json()) as SceneFacts;
     location.hash = scenePlace(scene.id);
   } catch (problem) {

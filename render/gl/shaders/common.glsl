@@ -2,7 +2,7 @@
 // middle, which may lie far outside a triangle that is seen edge-on. A ray to the exact surface
 // starts anywhere in the triangle's plane, and texture coordinates stay at the middle: differences
 // between pixels choose their mipmap.
-#if defined(SURFACE) && !defined(SURFACE_TURNED)
+#if defined(SURFACE) && !defined(SURFACE_PROFILE)
 #define COVERED
 #else
 #define COVERED centroid

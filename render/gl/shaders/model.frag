@@ -25,6 +25,9 @@ COVERED in vec3 normalView;
 #if defined(PHONG) || defined(LAYER_DEPTH) || (defined(SURFACE) && defined(TEXGEN_EYE))
 COVERED in vec3 positionView;
 #endif
+#ifdef VERTEX_COLOR
+COVERED in vec3 vertexColor;
+#endif
 #ifdef LAYER_NORMAL
 uniform mat3 worldFromView;
 #endif
@@ -97,6 +100,9 @@ void main() {
     finish(primary, secondary, modulated, extra);
 #endif
     result = vec4(modulated, 1.0);
+#ifdef VERTEX_COLOR
+    result.rgb *= vertexColor;
+#endif
 #ifdef TEXTURED
     result.rgb *= texel.rgb;
 #endif

@@ -2,6 +2,10 @@ layout(location = 0) in vec3 positionObject;
 layout(location = 1) in vec3 normalObject;
 layout(location = 2) in vec2 uvIn;
 layout(location = 3) in vec3 centerObject;  // FLAT: the middle of the face
+#ifdef VERTEX_COLOR
+layout(location = 12) in vec4 colorIn;
+COVERED out vec3 vertexColor;
+#endif
 
 #ifdef INSTANCED
 layout(location = 4) in mat4 viewFromObject;
@@ -24,9 +28,9 @@ uniform mat3 normalFromObject;
 uniform vec3 unitFromObject;  // scale
 out vec3 unitPosition;
 out vec3 unitRay;
-#if defined(SURFACE_FRUSTUM) || defined(SURFACE_RING)
+#if defined(SURFACE_CAPS)
 flat out float cap;
-#elif defined(SURFACE_TURNED)
+#elif defined(SURFACE_PROFILE)
 COVERED out vec2 profileNormal;
 COVERED out vec3 unitCovered;
 #endif
@@ -40,9 +44,13 @@ uniform vec4 planeT;
 
 #ifdef TEXTURED
 out vec2 uv;
+#if !defined(SURFACE) && !defined(TEXGEN_OBJECT) && !defined(TEXGEN_EYE)
+uniform vec4 uvFrom;  // scale, offset
+#endif
 #endif
 #if defined(MAPPING_SPHERE) && !defined(SURFACE)
 out vec3 positionMapped;
+uniform vec3 mappedFrom;  // the mesh's origin
 #endif
 #ifdef GOURAUD
 COVERED out vec3 modulated;
@@ -69,6 +77,9 @@ void main() {
 #ifdef TEXTURED
     uv = uvIn;
 #ifndef SURFACE
+#if !defined(TEXGEN_OBJECT) && !defined(TEXGEN_EYE)
+    uv = uvIn * uvFrom.xy + uvFrom.zw;
+#endif
 #ifdef TEXGEN_OBJECT
     uv = vec2(dot(planeS, vec4(positionObject, 1.0)), dot(planeT, vec4(positionObject, 1.0)));
 #endif
@@ -78,7 +89,10 @@ void main() {
 #endif
 #endif
 #if defined(MAPPING_SPHERE) && !defined(SURFACE)
-    positionMapped = positionObject;
+    positionMapped = positionObject + mappedFrom;
+#endif
+#ifdef VERTEX_COLOR
+    vertexColor = colorIn.rgb;
 #endif
 #if defined(GOURAUD) || defined(FLAT)
 #ifdef FLAT
@@ -99,9 +113,9 @@ void main() {
 #ifdef INSTANCED
     normalFromObject = normalIn;
 #endif
-#if defined(SURFACE_FRUSTUM) || defined(SURFACE_RING)
+#if defined(SURFACE_CAPS)
     cap = normalObject.x == 0.0 && normalObject.z == 0.0 ? normalObject.y : 0.0;
-#elif defined(SURFACE_TURNED)
+#elif defined(SURFACE_PROFILE)
     // On the axis the coordinates alone say where the vertex's slice is.
     float turn = 6.28318530717959 * uvIn.x;
     profileNormal = vec2(dot(normalObject.xz, vec2(cos(turn), -sin(turn))), normalObject.y);

@@ -4,10 +4,10 @@
 #ifdef SURFACE
 in vec3 unitPosition;  // on the triangle
 in vec3 unitRay;       // from the eye to there
-#if defined(SURFACE_FRUSTUM) || defined(SURFACE_RING)
+#ifdef SURFACE_CAPS
 flat in float cap;  // of the flat parts: their normal's y; 0: the side
 #endif
-#ifdef SURFACE_TURNED
+#ifdef SURFACE_PROFILE
 // Within a facet only the turn is not that of the surface: what the profile says is linear there.
 COVERED in vec2 profileNormal;  // away from Y, along it
 COVERED in vec3 unitCovered;
@@ -28,41 +28,34 @@ float entry(float a, float b, float c) {
     return a > 0.0 ? -(b + root) / a : 0.0;
 }
 
+#ifndef SURFACE_PROFILE
+// Of the kind of surface (generator::SurfaceKind::glsl).
+#ifdef SURFACE_RAY
 // Second-order coefficients of the surface's equation along the ray.
-void expand(vec3 q, vec3 d, out float a, out float b, out float c) {
-#if defined(SURFACE_ELLIPSOID)
-    a = dot(d, d);
-    b = dot(q, d);
-    c = dot(q, q) - 1.0;
-#elif defined(SURFACE_FRUSTUM)
-    float radius = surfaceForm.x + surfaceForm.y * q.y;
-    float slope = surfaceForm.y * d.y;
-    a = dot(d.xz, d.xz) - slope * slope;
-    b = dot(q.xz, d.xz) - slope * radius;
-    c = dot(q.xz, q.xz) - radius * radius;
-#elif defined(SURFACE_TORUS)
-    float radius = length(q.xz);
-    float rate = dot(q.xz, d.xz) / radius;
-    a = dot(d, d) - (dot(d.xz, d.xz) - rate * rate) / radius;
-    b = rate * (radius - 1.0) + q.y * d.y;
-    c = (radius - 1.0) * (radius - 1.0) + q.y * q.y - surfaceForm.x * surfaceForm.x;
+void expand(vec3 q, vec3 d, out float a, out float b, out float c);
 #endif
-}
+// Out of the curved part, of any length.
+vec3 sideGradient(vec3 q);
+#ifdef TEXTURED
+// Where q is between the curved part's ends, 0..1, and how that changes as q moves by `step`.
+float shareOf(vec3 q);
+float shareChange(vec3 q, vec3 step);
+#endif
+#endif
 
 // How far along the ray the surface is, in lengths of the ray.
 float toSurface() {
-#if defined(SURFACE_RING) || defined(SURFACE_TURNED)
+#ifndef SURFACE_RAY
     return 0.0;
 #else
-#ifdef SURFACE_FRUSTUM
+#ifdef SURFACE_CAPS
     if (cap != 0.0) return 0.0;
 #endif
     const float kFarthest = 0.5;  // only rays that graze a shape round the eye go so far
     float a, b, c;
     expand(unitPosition, unitRay, a, b, c);
     float t = seenFrom * entry(a, seenFrom * b, c);
-#ifdef SURFACE_TORUS
-    // Not a quadric: once more from there.
+#ifdef SURFACE_TWO_STEPS
     t = clamp(t, -kFarthest, kFarthest);
     expand(unitPosition + t * unitRay, unitRay, a, b, c);
     t += seenFrom * entry(a, seenFrom * b, c);
@@ -73,19 +66,14 @@ float toSurface() {
 
 // Out of the surface, of any length.
 vec3 surfaceGradient(vec3 q) {
-#if defined(SURFACE_ELLIPSOID)
-    return q;
-#elif defined(SURFACE_FRUSTUM)
-    if (cap != 0.0) return vec3(0.0, cap, 0.0);
-    return vec3(q.x, -surfaceForm.y * (surfaceForm.x + surfaceForm.y * q.y), q.z);
-#elif defined(SURFACE_TORUS)
-    float radius = length(q.xz);
-    return vec3(q.x - q.x / radius, q.y, q.z - q.z / radius);
-#elif defined(SURFACE_TURNED)
+#ifdef SURFACE_PROFILE
     vec2 outwards = unitCovered.xz / max(length(unitCovered.xz), 1e-20);
     return vec3(profileNormal.x * outwards.x, profileNormal.y, profileNormal.x * outwards.y);
 #else
-    return vec3(0.0, cap, 0.0);
+#ifdef SURFACE_CAPS
+    if (cap != 0.0) return vec3(0.0, cap, 0.0);
+#endif
+    return sideGradient(q);
 #endif
 }
 
@@ -96,7 +84,7 @@ uniform float balance;  // by which the mesh is wider than its coordinates
 
 // `near`: the triangle's own coordinates, which tell the turn that is meant.
 vec2 surfaceCoordinates(vec3 q, vec2 near) {
-#ifdef SURFACE_FRUSTUM
+#if defined(SURFACE_CAPS) && defined(SURFACE_RAY)
     if (cap != 0.0) {
         vec2 middle = cap < 0.0 ? surfaceDiscs.xy : surfaceDiscs.zw;
         return middle + balance * (near - middle);
@@ -105,48 +93,32 @@ vec2 surfaceCoordinates(vec3 q, vec2 near) {
 #ifdef SURFACE_DISC_UV
     return surfaceUv.xz + surfaceUv.yw * q.xz;
 #else
-    float radius = length(q.xz);
 #ifdef SURFACE_TURN_FROM_X
     float turn = atan(-q.z, q.x) / kTurn;
 #else
     float turn = atan(q.x, q.z) / kTurn;
 #endif
-#if defined(SURFACE_ELLIPSOID)
-    float share = 0.5 + atan(q.y, radius) / (0.5 * kTurn);
-#elif defined(SURFACE_FRUSTUM)
-    float share = q.y;
-#elif defined(SURFACE_TORUS)
-    float share = atan(q.y, radius - 1.0) / kTurn;
-#elif defined(SURFACE_TURNED)
+#ifdef SURFACE_PROFILE
     float share = near.y;
 #else
-    float share = (radius - surfaceForm.x) / (1.0 - surfaceForm.x);
+    float share = shareOf(q);
 #endif
     vec2 uv = surfaceUv.xz + surfaceUv.yw * vec2(turn, share);
     uv.x += floor(near.x - uv.x + 0.5);
-#ifdef SURFACE_TORUS
+#ifdef SURFACE_WRAPS_V
     uv.y += floor(near.y - uv.y + 0.5);
 #endif
     return uv;
 #endif
 }
 
-#ifndef SURFACE_TURNED
+#ifndef SURFACE_PROFILE
 // The coordinates' change as q, on the surface, moves by `step`.
 vec2 coordinateChange(vec3 q, vec3 step) {
 #ifdef SURFACE_DISC_UV
     return surfaceUv.yw * step.xz;
 #else
-#if defined(SURFACE_ELLIPSOID)
-    float share = 2.0 * latitudeChange(q, 0.0, step);
-#elif defined(SURFACE_FRUSTUM)
-    float share = step.y;
-#elif defined(SURFACE_TORUS)
-    float share = latitudeChange(q, 1.0, step);
-#else
-    float share = dot(q.xz, step.xz) / (length(q.xz) * (1.0 - surfaceForm.x));
-#endif
-    return surfaceUv.yw * vec2(turnChange(q, step), share);
+    return surfaceUv.yw * vec2(turnChange(q, step), shareChange(q, step));
 #endif
 }
 #endif
@@ -161,10 +133,10 @@ vec3 tangentChange(vec3 aside, vec3 reach, vec3 gradient) {
 
 vec4 sampleSurface(vec3 q, vec2 near, vec3 right, vec3 up) {
     vec2 at = surfaceCoordinates(q, near);
-#ifdef SURFACE_FRUSTUM
+#if defined(SURFACE_CAPS) && defined(SURFACE_RAY)
     if (cap != 0.0) return filtered(at, balance * CHANGE_RIGHT(near), balance * CHANGE_UP(near));
 #endif
-#ifdef SURFACE_TURNED
+#ifdef SURFACE_PROFILE
     return filtered(at, vec2(turnChange(q, right), CHANGE_RIGHT(near.y)),
                     vec2(turnChange(q, up), CHANGE_UP(near.y)));
 #else

@@ -51,7 +51,7 @@ const std::vector<Row> kRows = {
     {"spher 1 8 8", "shape.unknown", "there is no shape \"spher\"; did you mean \"sphere\"?"},
     {"pyramid 1 2", "shape.unknown",
      "there is no shape \"pyramid\"; there are plane, box, sphere, cone, cylinder, torus, patch, "
-     "ring, ellipsoid, frustum, revolution"},
+     "ring, ellipsoid, frustum, revolution, wedge, dome"},
 };
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "generator/registry.h"
-#include "scene/assets.h"
+#include "scene/files/assets.h"
 
 /// Measures of meshes that share no code with the generator.
 namespace checks {
@@ -25,13 +25,14 @@ inline std::vector<std::string> words(const std::string& text) {
 
 inline Mesh make(const std::string& text,
                  farol::scene::UvLayout uv = farol::scene::UvLayout::face) {
-    return farol::generator::generate(words(text), farol::scene::BundleAssets(), uv);
+    return farol::generator::generate(farol::generator::parseCall(words(text)),
+                                      farol::scene::BundleAssets(), uv);
 }
 
 inline std::array<dvec3, 3> corners(const Mesh& mesh, std::size_t triangle) {
     std::array<dvec3, 3> out;
     for (std::size_t k = 0; k < 3; ++k)
-        out[k] = dvec3(mesh.positions[mesh.indices[3 * triangle + k]]);
+        out[k] = dvec3(mesh.positions()[mesh.indices()[3 * triangle + k]]);
     return out;
 }
 
@@ -60,7 +61,7 @@ inline bool closedAndManifold(const Mesh& mesh) {
     for (std::size_t t = 0; t < mesh.triangles(); ++t) {
         for (std::size_t k = 0; k < 3; ++k) {
             const auto key = [&](std::size_t i) {
-                const glm::vec3 p = mesh.positions[mesh.indices[3 * t + i % 3]];
+                const glm::vec3 p = mesh.positions()[mesh.indices()[3 * t + i % 3]];
                 return Key{p.x + 0.0F, p.y + 0.0F, p.z + 0.0F};
             };
             ++edges[{key(k), key(k + 1)}];

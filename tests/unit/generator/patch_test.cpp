@@ -13,19 +13,20 @@ TEST_CASE("a patch of a plane is that plane, with its texture and split") {
     file << "1\n0,1,2,3,4,5,6,7,8,9,10,11,12,13,14,15\n16\n";
     for (int row = 0; row < 4; ++row)
         for (int column = 0; column < 4; ++column) file << column << ", " << row << ", 5\n";
-    const Mesh mesh = farol::generator::generate(
-        {"patch", "p.patch", "3"}, farol::scene::BundleAssets({{"p.patch", file.str()}}));
-    REQUIRE(mesh.positions.size() == 16);
+    const Mesh mesh =
+        farol::generator::generate(farol::generator::parseCall({"patch", "p.patch", "3"}),
+                                   farol::scene::BundleAssets({{"p.patch", file.str()}}));
+    REQUIRE(mesh.positions().size() == 16);
     for (std::size_t i = 0; i < 16; ++i) {
-        const glm::vec3 p = mesh.positions[i];
+        const glm::vec3 p = mesh.positions()[i];
         CHECK(glm::distance(p, glm::vec3(i % 4, i / 4, 5)) < 1e-6F);
-        CHECK(glm::distance(mesh.normals[i], glm::vec3(0, 0, 1)) < 1e-6F);
-        CHECK(glm::distance(mesh.uvs[i], glm::vec2(1 - p.x / 3, 1 - p.y / 3)) < 1e-6F);
+        CHECK(glm::distance(mesh.normals()[i], glm::vec3(0, 0, 1)) < 1e-6F);
+        CHECK(glm::distance(mesh.uvs()[i], glm::vec2(1 - p.x / 3, 1 - p.y / 3)) < 1e-6F);
     }
     // (row i, column j+1) to (row i+1, column j)
-    CHECK(mesh.indices[0] == 0);
-    CHECK(mesh.indices[1] == 1);
-    CHECK(mesh.indices[2] == 4);
+    CHECK(mesh.indices()[0] == 0);
+    CHECK(mesh.indices()[1] == 1);
+    CHECK(mesh.indices()[2] == 4);
     CHECK(volume(mesh) == Approx(15));  // counter-clockwise seen from +Z: column x row
 }
 
@@ -37,18 +38,18 @@ TEST_CASE("the teapot has faces with an area and normals that agree with them") 
         const dvec3 n = glm::cross(b - a, c - a);
         REQUIRE(glm::length(n) > 0);
         for (std::size_t k = 0; k < 3; ++k) {
-            const dvec3 vertex(mesh.normals[mesh.indices[3 * t + k]]);
+            const dvec3 vertex(mesh.normals()[mesh.indices()[3 * t + k]]);
             CHECK(std::abs(glm::length(vertex) - 1) < 1e-6);
             // Coarse faces at the spout's tip lean up to 75 degrees; none looks the wrong way.
             CHECK(glm::dot(vertex, glm::normalize(n)) > 0.2);
         }
     }
     // The lid's top and the bottom's middle are single points: straight up and down.
-    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-        if (glm::distance(mesh.positions[i], glm::vec3(0, 0, 3.15F)) < 1e-6F)
-            CHECK(glm::distance(mesh.normals[i], glm::vec3(0, 0, 1)) < 1e-5F);
-        if (glm::distance(mesh.positions[i], glm::vec3(0)) < 1e-6F)
-            CHECK(glm::distance(mesh.normals[i], glm::vec3(0, 0, -1)) < 1e-5F);
+    for (std::size_t i = 0; i < mesh.positions().size(); ++i) {
+        if (glm::distance(mesh.positions()[i], glm::vec3(0, 0, 3.15F)) < 1e-6F)
+            CHECK(glm::distance(mesh.normals()[i], glm::vec3(0, 0, 1)) < 1e-5F);
+        if (glm::distance(mesh.positions()[i], glm::vec3(0)) < 1e-6F)
+            CHECK(glm::distance(mesh.normals()[i], glm::vec3(0, 0, -1)) < 1e-5F);
     }
 }
 

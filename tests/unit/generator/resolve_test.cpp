@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "tests/unit/generator/checks.h"
@@ -32,7 +33,7 @@ const std::map<std::string, std::string> kBundle{
      "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\n"
      "property float z\nend_header\n1 0 0\n1 1 0\n"},
     {"a/twin.3d", "0 0 0\n1 0 0\n0 1 0\n"},
-    {"b/twin.3d", "0 0 0\n1 0 0\n0 1 0\n"},
+    {"b/twin.3d", "0 0 0\n2 0 0\n0 2 0\n"},
     {"own.patch", "1\n0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0\n1\n0,0,0\n"},
     {"wood.jpg", "x"}};
 
@@ -108,7 +109,7 @@ TEST_CASE("models are found in the bundle, in comments, in their names and built
         const bool file = row.shape.empty();
         CHECK(source.kind == (file ? ModelSource::Kind::file : ModelSource::Kind::shape));
         CHECK(source.path == row.path);
-        CHECK(source.words == words(row.shape));
+        if (!file) CHECK(generator::textOf(source.shape) == row.shape);
         if (!row.warning.empty()) CHECK(result.has(row.warning, Severity::warning));
         const bool patchFile = row.setup.file == "own.patch";
         CHECK(
@@ -189,7 +190,8 @@ TEST_CASE("textures, background and skybox are found or reported, also in the en
 
 TEST_CASE("messages quote a bounded part of a file's name") {
     try {
-        generator::generate({"patch", std::string(10'000, 'x') + ".patch"}, scene::BundleAssets());
+        generator::generate(generator::parseCall({"patch", std::string(10'000, 'x') + ".patch"}),
+                            scene::BundleAssets());
         FAIL("was found");
     } catch (const Error& error) {
         CHECK(error.code() == "asset.missing");
@@ -202,15 +204,21 @@ TEST_CASE("what is said of names that students write") {
         const char *file, *code, *message;
     };
     const Row rows[] = {
-        {"models\\ship.3d", "asset.found-elsewhere",
-         "\"models\\ship.3d\" is not there; \"models/Ship.3d\" is taken instead"},
-        {"C:\\Users\\ana\\ship.3d", "asset.found-elsewhere",
-         "\"C:\\Users\\ana\\ship.3d\" is not there; \"models/Ship.3d\" is taken instead"},
-        {"../scenes/ship.3d", "asset.found-elsewhere",
-         "\"../scenes/ship.3d\" is not there; \"models/Ship.3d\" is taken instead"},
+        {"models\\ship.3d", "asset.case",
+         "\"models\\ship.3d\" is the file \"models/Ship.3d\"; write capital and small letters as "
+         "in the "
+         "file's name"},
+        {"C:\\Users\\ana\\ship.3d", "asset.case",
+         "\"C:\\Users\\ana\\ship.3d\" is the file \"models/Ship.3d\"; write capital and small "
+         "letters as in the "
+         "file's name"},
+        {"../scenes/ship.3d", "asset.case",
+         "\"../scenes/ship.3d\" is the file \"models/Ship.3d\"; write capital and small letters as "
+         "in the "
+         "file's name"},
         {"spaceship.3d", "asset.missing",
          "there is no file \"spaceship.3d\", no generator comment for it, and its name is no "
-         "shape's; add it to the scene's files, or mend the name"},
+         "shape's; add it to the scene's files, or correct the name"},
         {"shpi.3d", "asset.missing",
          "there is no file \"shpi.3d\", no generator comment for it, and its name is no shape's; "
          "did you mean \"Ship.3d\"?"},
@@ -227,7 +235,7 @@ TEST_CASE("what is said of names that students write") {
          "the argument DIV of box must be a whole number from 1 to 100000, not \"0\"; usage: box "
          "X [DIV], or box X Y Z [DIV]"},
         {"sphere.3d", "shape.guessed",
-         "\"sphere.3d\" does not exist and its name gives no size: \"sphere 1\" is taken"},
+         "\"sphere.3d\" does not exist and its name gives no size; \"sphere 1\" is drawn"},
     };
     for (const Row& row : rows) {
         CAPTURE(row.file);
@@ -237,4 +245,126 @@ TEST_CASE("what is said of names that students write") {
         CHECK(found.diagnostics[0].message == row.message);
         CHECK(found.diagnostics[0].where.line == 7);
     }
+}
+
+TEST_CASE("a mesh of an unknown form is the shape that its name or comment says") {
+    const std::string unknown = "PLANE\nLength: 2\nVERTICES:\n(0.0, 0.0, 0.0)\n";
+    const scene::BundleAssets bundle({{"plane_2_3.3d", unknown},
+                                      {"floor.3d", unknown},
+                                      {"thing.3d", unknown},
+                                      {"box_1.3d", "0 0 0\n1 0 0\n0 1 0\n"},
+                                      {"plane_9.obj", "v 0 0 0\n"}});
+    struct Row {
+        std::string file, comment;
+        std::size_t triangles;  ///< 0: refused
+    };
+    for (const Row& row : std::vector<Row>{{"plane_2_3.3d", "", 18},
+                                           {"floor.3d", "plane 2 4", 32},
+                                           {"plane_2_3.3d", "box 2", 12},
+                                           {"thing.3d", "", 0},
+                                           {"plane_9.obj", "", 0}}) {
+        CAPTURE(row.file, row.comment);
+        scene::Scene scene;
+        scene.groups.emplace_back().models.emplace_back().file = row.file;
+        if (!row.comment.empty()) scene.generatorComments[row.file] = words(row.comment);
+        Diagnostics diagnostics, findings;
+        generator::resolve(scene, bundle, diagnostics);
+        const scene::Model& model = scene.groups[0].models[0];
+        if (row.triangles == 0) {
+            CHECK_THROWS_AS(generator::load(model, bundle, &findings), Error);
+            continue;
+        }
+        CHECK(generator::load(model, bundle, &findings).triangles() == row.triangles);
+        REQUIRE(findings.size() == 1);
+        CHECK(findings[0].code == "mesh.replaced");
+        CHECK(findings[0].where.file == row.file);
+        CHECK(findings[0].where.line == 4);
+    }
+    // What can be read is read, whatever its name says.
+    scene::Scene scene;
+    scene.groups.emplace_back().models.emplace_back().file = "box_1.3d";
+    Diagnostics diagnostics, findings;
+    generator::resolve(scene, bundle, diagnostics);
+    CHECK(generator::load(scene.groups[0].models[0], bundle, &findings).triangles() == 1);
+    CHECK(findings.empty());
+}
+
+TEST_CASE("the materials of an OBJ file are found beside it, with their textures") {
+    const std::string obj = "mtllib my box.mtl\nv 0 0 0\nusemtl a\n";
+    const scene::BundleAssets bundle(
+        {{"models/box.obj", obj},
+         {"models/my box.mtl",
+          "newmtl a\nKd 1 0 0\nmap_Kd skin.png\nnewmtl b\nmap_Kd far.png\n"
+          "newmtl c\nmap_Kd none.png\n"},
+         {"my box.mtl", "newmtl wrong\n"},
+         {"models/skin.png", "x"},
+         {"skin.png", "x"},
+         {"textures/far.png", "x"},
+         {"lost.obj", "mtllib lost.mtl\nv 0 0 0\n"},
+         {"plain.obj", "v 0 0 0\n"}});
+    const auto find = [&bundle](const std::string& file, Diagnostics& diagnostics) {
+        scene::Scene scene;
+        scene.groups.emplace_back().models.emplace_back().file = file;
+        generator::resolve(scene, bundle, diagnostics);
+        return scene.groups[0].models[0].source.materials;
+    };
+    Diagnostics diagnostics;
+    const auto materials = find("models/box.obj", diagnostics);
+    REQUIRE(materials);
+    REQUIRE(materials->size() == 3);
+    CHECK((*materials)[0].name == "a");
+    CHECK((*materials)[0].texture->path == "models/skin.png");
+    CHECK((*materials)[1].texture->path == "textures/far.png");
+    CHECK_FALSE((*materials)[2].texture);
+    const auto count = [](const Diagnostics& all) {
+        return std::count_if(all.begin(), all.end(),
+                             [](const Diagnostic& one) { return one.code == "mesh.material"; });
+    };
+    CHECK(count(diagnostics) == 1);
+    Diagnostics lost, plain;
+    CHECK_FALSE(find("lost.obj", lost));
+    CHECK(count(lost) == 1);
+    CHECK_FALSE(find("plain.obj", plain));
+    CHECK(count(plain) == 0);
+}
+
+TEST_CASE("shape words of this course's students, in any order that their generators write") {
+    struct Row {
+        const char* comment;
+        const char* shape;
+    };
+    const Row row = GENERATE(values<Row>({{"anel 1 2 24", "ring 1 2 24"},
+                                          {"cubo 2", "box 2"},
+                                          {"caixa 2 3", "box 2 3"},
+                                          {"caja 2 3", "box 2 3"},
+                                          {"esfera 1 16 8", "sphere 1 16 8"},
+                                          {"plano 2 3", "plane 2 3"},
+                                          {"cone 1 2 4 3", "cone 1 2 4 3"},
+                                          {"cono 1 2 4 3", "cone 1 2 4 3"},
+                                          {"cilindro 1 2", "cylinder 1 2"},
+                                          {"toro 3 1", "torus 3 1"},
+                                          {"anillo 1 2", "ring 1 2"},
+                                          {"Esfera 1", "sphere 1"}}));
+    CAPTURE(row.comment);
+    const Result result = resolved({"a.3d", "", row.comment});
+    CHECK(generator::textOf(result.model().source.shape) == row.shape);
+    CHECK_FALSE(result.has("shape.argument", Severity::warning));
+}
+
+TEST_CASE("lengths in GLUT's order and surplus numbers are read with a warning") {
+    struct Row {
+        const char* file;
+        const char* shape;
+    };
+    const Row row = GENERATE(values<Row>({{"torus_1_3_24_12.3d", "torus 3 1 24 12"},
+                                          {"torus_1_3.3d", "torus 3 1"},
+                                          {"ring_2_1_24.3d", "ring 1 2 24"},
+                                          {"ring_1_2_24_24.3d", "ring 1 2 24"},
+                                          {"sphere_1_16_8_5_6.3d", "sphere 1 16 8"},
+                                          {"esfera_1_16_8.3d", "sphere 1 16 8"}}));
+    CAPTURE(row.file);
+    const Result result = resolved({row.file, "", ""});
+    CHECK(generator::textOf(result.model().source.shape) == row.shape);
+    CHECK(result.has("shape.argument", Severity::warning) ==
+          (std::string(row.file).find("esfera") == std::string::npos));
 }

@@ -18,8 +18,8 @@ std::string ply(const std::vector<std::pair<double, double>>& points) {
 }
 
 Mesh turned(const std::string& profile, int copies) {
-    return farol::generator::generate({"revolution", "p.ply", std::to_string(copies)},
-                                      farol::scene::BundleAssets({{"p.ply", profile}}));
+    const auto call = farol::generator::parseCall({"revolution", "p.ply", std::to_string(copies)});
+    return farol::generator::generate(call, farol::scene::BundleAssets({{"p.ply", profile}}));
 }
 
 std::string circle(int points) {
@@ -41,25 +41,25 @@ TEST_CASE("a half circle turned is a closed sphere that converges at second orde
     const double exact = 4.0 / 3 * kPi;
     CHECK((exact - volume(coarse)) / (exact - volume(fine)) == Approx(4).epsilon(0.05));
     double worst = 0;
-    for (std::size_t i = 0; i < fine.positions.size(); ++i)
-        if (std::abs(fine.positions[i].y) < 1)  // the poles have their fans' normals
-            worst = std::max(worst, glm::length(dvec3(fine.normals[i]) -
-                                                glm::normalize(dvec3(fine.positions[i]))));
+    for (std::size_t i = 0; i < fine.positions().size(); ++i)
+        if (std::abs(fine.positions()[i].y) < 1)  // the poles have their fans' normals
+            worst = std::max(worst, glm::length(dvec3(fine.normals()[i]) -
+                                                glm::normalize(dvec3(fine.positions()[i]))));
     CHECK(worst < 1e-6);
 }
 
 TEST_CASE("copies, texture coordinates and directions of a revolved profile") {
     const Mesh mesh = turned(ply({{1, 0}, {1, 1}, {1, 4}}), 5);
-    REQUIRE(mesh.positions.size() == 15);
+    REQUIRE(mesh.positions().size() == 15);
     CHECK(mesh.triangles() == 16);
-    CHECK(mesh.positions[0] == glm::vec3(1, 0, 0));
-    CHECK(mesh.positions[1] == glm::vec3(0, 0, -1));  // from +X towards -Z
-    CHECK(mesh.positions[4] == mesh.positions[0]);    // the last copy upon the first
-    CHECK(mesh.uvs[1] == glm::vec2(0.25F, 0));
-    CHECK(mesh.uvs[4] == glm::vec2(1, 0));
-    CHECK(mesh.uvs[5] == glm::vec2(0, 0.25F));  // by arc length
-    CHECK(mesh.uvs[10] == glm::vec2(0, 1));
-    CHECK(mesh.normals[1] == glm::vec3(0, 0, -1));
+    CHECK(mesh.positions()[0] == glm::vec3(1, 0, 0));
+    CHECK(mesh.positions()[1] == glm::vec3(0, 0, -1));  // from +X towards -Z
+    CHECK(mesh.positions()[4] == mesh.positions()[0]);  // the last copy upon the first
+    CHECK(mesh.uvs()[1] == glm::vec2(0.25F, 0));
+    CHECK(mesh.uvs()[4] == glm::vec2(1, 0));
+    CHECK(mesh.uvs()[5] == glm::vec2(0, 0.25F));  // by arc length
+    CHECK(mesh.uvs()[10] == glm::vec2(0, 1));
+    CHECK(mesh.normals()[1] == glm::vec3(0, 0, -1));
 }
 
 TEST_CASE("a profile is turned outwards whichever way it runs") {
@@ -70,16 +70,16 @@ TEST_CASE("a profile is turned outwards whichever way it runs") {
         CHECK(closedAndManifold(mesh));
         CHECK(volume(mesh) == Approx(2 * 32 * 0.5 * std::sin(2 * kPi / 32)));
     }
-    CHECK(down.uvs[0].y == 1);  // t keeps the file's direction
+    CHECK(down.uvs()[0].y == 1);  // t keeps the file's direction
 }
 
 TEST_CASE("a point given twice is a crease") {
     const Mesh smooth = turned(ply({{1, 0}, {1, 1}, {0.5, 1}}), 9);
     const Mesh creased = turned(ply({{1, 0}, {1, 1}, {1, 1}, {0.5, 1}}), 9);
     CHECK(smooth.triangles() == creased.triangles());
-    CHECK(glm::distance(smooth.normals[9], glm::normalize(glm::vec3(1, 1, 0))) < 1e-6F);
-    CHECK(glm::distance(creased.normals[9], glm::vec3(1, 0, 0)) < 1e-6F);
-    CHECK(glm::distance(creased.normals[18], glm::vec3(0, 1, 0)) < 1e-6F);
+    CHECK(glm::distance(smooth.normals()[9], glm::normalize(glm::vec3(1, 1, 0))) < 1e-6F);
+    CHECK(glm::distance(creased.normals()[9], glm::vec3(1, 0, 0)) < 1e-6F);
+    CHECK(glm::distance(creased.normals()[18], glm::vec3(0, 1, 0)) < 1e-6F);
 }
 
 TEST_CASE("profiles that cannot be turned are refused") {

@@ -1,4 +1,4 @@
-#include "grade/client_area.h"
+#include "grade/images/client_area.h"
 
 #include <catch2/catch.hpp>
 
@@ -6,7 +6,7 @@ namespace {
 
 using farol::grade::clientArea;
 using farol::grade::Rectangle;
-using farol::render::Image;
+using farol::image::Image;
 
 struct Painter {
     Image image;
@@ -57,7 +57,7 @@ TEST_CASE("a window's client area is found inside its frame") {
     painter.scene(one.inside);
     const Rectangle found = clientArea(painter.image);
     CHECK(found == one.inside);
-    CHECK(clientArea(painter.image, farol::render::ImageSize{400, 300}) == one.inside);
+    CHECK(clientArea(painter.image, farol::image::ImageSize{400, 300}) == one.inside);
 }
 
 TEST_CASE("a picture without a frame is taken whole") {
@@ -76,6 +76,6 @@ TEST_CASE("borders as dark as the picture are cut to the size that is expected")
     painter.fill({0, 0, 402, 331}, 0, 0, 0);
     painter.title({0, 0, 402, 30}, 240, 240, 240);
     painter.fill({150, 150, 60, 60}, 255, 255, 255);
-    CHECK(clientArea(painter.image, farol::render::ImageSize{400, 300}) ==
+    CHECK(clientArea(painter.image, farol::image::ImageSize{400, 300}) ==
           Rectangle{1, 30, 400, 300});
 }

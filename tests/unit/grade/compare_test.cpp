@@ -1,16 +1,16 @@
-#include "grade/compare.h"
+#include "grade/images/compare.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "scene/error.h"
+#include "core/error.h"
 
 namespace {
 
 using farol::Error;
 using farol::grade::compare;
 using farol::grade::crop;
-using farol::render::Image;
+using farol::image::Image;
 
 Image filled(int width, int height, std::uint8_t level) {
     Image image{width, height, {}};

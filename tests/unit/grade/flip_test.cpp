@@ -1,9 +1,9 @@
-#include "grade/flip.h"
+#include "grade/images/flip.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "scene/error.h"
+#include "core/error.h"
 
 // Pictures of one colour pass the filters unchanged and have no features: what is left of FLIP can
 // be worked out by hand from the paper's formulas.

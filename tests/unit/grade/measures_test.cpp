@@ -1,20 +1,20 @@
-#include "grade/measures.h"
+#include "grade/images/measures.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cstdlib>
 #include <random>
 
-#include "grade/flip.h"
+#include "grade/images/flip.h"
 
 using namespace farol;
 using namespace farol::grade;
 
 namespace {
 
-render::Image noise(int width, int height, unsigned seed, bool transparent = false) {
+image::Image noise(int width, int height, unsigned seed, bool transparent = false) {
     std::mt19937 random(seed);
-    render::Image image{width, height, {}};
+    image::Image image{width, height, {}};
     for (int i = 0; i < width * height * 4; ++i)
         image.pixels.push_back(i % 4 == 3 && !transparent
                                    ? std::uint8_t{255}
@@ -23,13 +23,13 @@ render::Image noise(int width, int height, unsigned seed, bool transparent = fal
 }
 
 /// A channel on black.
-int level(const render::Image& image, int x, int y, int c) {
+int level(const image::Image& image, int x, int y, int c) {
     const std::uint8_t* p = &image.pixels[4 * static_cast<std::size_t>(y * image.width + x)];
     return (p[c] * p[3] + 127) / 255;
 }
 
 /// By the words of the header, a pixel at a time.
-float beyond(const render::Image& a, const render::Image& b, int x, int y, int full) {
+float beyond(const image::Image& a, const image::Image& b, int x, int y, int full) {
     int worst = 0;
     for (const auto& [mine, other] : {std::pair{&a, &b}, {&b, &a}})
         for (int c = 0; c < 3; ++c) {
@@ -46,8 +46,8 @@ float beyond(const render::Image& a, const render::Image& b, int x, int y, int f
 }
 
 /// The picture with other noise in a rectangle.
-render::Image changed(render::Image image, const Rectangle& where) {
-    const render::Image other = noise(image.width, image.height, 99);
+image::Image changed(image::Image image, const Rectangle& where) {
+    const image::Image other = noise(image.width, image.height, 99);
     for (int y = where.y; y < where.y + where.height; ++y)
         for (int x = 4 * where.x; x < 4 * (where.x + where.width); ++x) {
             const auto at = static_cast<std::size_t>(4 * image.width * y + x);
@@ -62,8 +62,8 @@ TEST_CASE("what is beyond a pixel is that of every neighbourhood, at borders and
     const auto [width, height] = GENERATE(std::pair{1, 1}, std::pair{2, 1}, std::pair{1, 5},
                                           std::pair{17, 9}, std::pair{40, 33});
     const bool transparent = GENERATE(false, true);
-    const render::Image a = noise(width, height, 1, transparent);
-    render::Image b = noise(width, height, 2, transparent);
+    const image::Image a = noise(width, height, 1, transparent);
+    image::Image b = noise(width, height, 2, transparent);
     // Some rows are the same in both.
     for (int y = 0; y < height / 2; ++y)
         std::copy_n(a.pixels.begin() + 4 * width * y, 4 * width, b.pixels.begin() + 4 * width * y);
@@ -76,7 +76,7 @@ TEST_CASE("what is beyond a pixel is that of every neighbourhood, at borders and
 }
 
 TEST_CASE("the rectangle of what differs is tight") {
-    const render::Image a = noise(30, 20, 5);
+    const image::Image a = noise(30, 20, 5);
     CHECK(differing(a, a) == Rectangle{});
     for (const Rectangle& where : {Rectangle{0, 0, 1, 1}, Rectangle{29, 19, 1, 1},
                                    Rectangle{7, 3, 9, 11}, Rectangle{0, 0, 30, 20}})
@@ -84,12 +84,12 @@ TEST_CASE("the rectangle of what differs is tight") {
 }
 
 TEST_CASE("FLIP around what changed is FLIP of the whole, to the bit") {
-    const render::Image a = noise(97, 83, 11);
+    const image::Image a = noise(97, 83, 11);
     const FlipPicture reference{FloatImage(a)};
     for (const Rectangle& where :
          {Rectangle{40, 40, 1, 1}, Rectangle{0, 0, 3, 2}, Rectangle{90, 80, 7, 3},
           Rectangle{20, 10, 50, 9}, Rectangle{0, 0, 97, 83}}) {
-        const render::Image b = changed(a, where);
+        const image::Image b = changed(a, where);
         const Plane whole = flip(reference, FlipPicture(FloatImage(b)));
         const Plane around = flip(reference, b, differing(a, b));
         INFO(where.x << ", " << where.y << ": " << where.width << "x" << where.height);

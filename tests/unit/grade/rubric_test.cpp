@@ -1,10 +1,11 @@
-#include "grade/rubric.h"
+#include "grade/rubric/rubric.h"
 
 #include <catch2/catch.hpp>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "scene/error.h"
+#include "core/error.h"
+#include "tests/support/paths.h"
 
 namespace {
 
@@ -14,7 +15,7 @@ using farol::grade::Rubric;
 using nlohmann::json;
 
 json schema() {
-    std::ifstream in(std::string(FAROL_SOURCE_DIR) + "/api/rubric.schema.json");
+    std::ifstream in(std::string(farol::test::kSourceDir) + "/api/rubric.schema.json");
     return json::parse(in);
 }
 
@@ -141,4 +142,22 @@ TEST_CASE("the schema knows every key of the default") {
     for (const auto& [key, value] : written.items()) CHECK(rules.contains(key));
     for (const auto& [key, value] : written["picture"].items())
         CHECK(rules["picture"]["properties"].contains(key));
+}
+
+TEST_CASE("a rubric is read within limits") {
+    const auto codeOf = [](const std::string& text) {
+        try {
+            readRubric(text, "r.json");
+            return std::string("done");
+        } catch (const Error& error) {
+            return error.code() + ": " + error.what();
+        }
+    };
+    CHECK(codeOf("{}") == "done");
+    CHECK(codeOf("{\"views\": " + std::string(100'000, '[')).rfind("rubric.json: ", 0) == 0);
+    CHECK(codeOf("{\"views\": " + std::string(100'000, '[')).find("line 1, column ") !=
+          std::string::npos);
+    CHECK(codeOf(std::string((std::size_t{1} << 20U), ' ') + "{}").rfind("rubric.json: ", 0) == 0);
+    CHECK(codeOf(R"({"points": 5, "points": 6})").rfind("rubric.json: ", 0) == 0);
+    CHECK(codeOf(R"({"points": 1e999})").rfind("rubric.json: ", 0) == 0);
 }

@@ -1,9 +1,9 @@
-#include "grade/ssim.h"
+#include "grade/images/ssim.h"
 
 #include <catch2/catch.hpp>
 #include <random>
 
-#include "scene/error.h"
+#include "core/error.h"
 
 namespace {
 

@@ -1,10 +1,11 @@
-#include "render/batches.h"
+#include "render/plan/batches.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <numeric>
 #include <random>
 
+#include "render/plan/passes.h"
 #include "render/renderer.h"
 
 // Models that differ in their place alone are drawn by one call: the same pixels as one by one.
@@ -32,14 +33,17 @@ FramePlan planOf(const std::vector<int>& meshes) {
     plan.camera.near = 1.0;
     plan.camera.far = 100.0;
     plan.camera.fovDeg = 60.0;
+    plan.view = render::viewOf(plan.camera, glm::ivec2(512));
+    plan.lightSets.emplace_back();
     for (std::size_t i = 0; i < meshes.size(); ++i)
         plan.items.push_back(cubeAt(meshes[i], {2.0F * static_cast<float>(i) - 20.0F, 0.0F, -40}));
     return plan;
 }
 
 /// Checks that every item is drawn once.
-std::vector<std::size_t> countsOf(const FramePlan& plan) {
-    const render::Batches all = render::batchesOf(plan);
+std::vector<std::size_t> countsOf(FramePlan plan) {
+    render::composePasses(plan, {});
+    const render::Batches& all = plan.batches;
     std::vector<std::size_t> counts;
     for (const Batch& batch : all.batches) {
         CHECK(batch.first == std::accumulate(counts.begin(), counts.end(), std::size_t{0}));
@@ -84,10 +88,10 @@ TEST_CASE("models that differ in their place alone make a batch") {
     CHECK(countsOf(plan) == Counts{20});
     plan.items[9].diffuse.x = 0.5F;
     CHECK(countsOf(plan) == Counts{19, 1});
-    plan.instancing = false;
+    plan.style.mergesCalls = false;
     CHECK(countsOf(plan) == Counts(20, 1));
-    plan.instancing = true;
-    plan.layer = render::Layer::id;
+    plan.style.mergesCalls = true;
+    plan.style.layer = render::Layer::id;
     CHECK(countsOf(plan) == Counts(20, 1));
     CHECK(countsOf(planOf({1, 2, 1, 2, 1, 2, 1, 2, 1, 2})) == Counts{5, 5});
 }
@@ -129,7 +133,7 @@ TEST_CASE("what is drawn by one call gives the same pixels as model by model") {
             job.xml = xml;
             job.options.shading = shading;
             job.options.layer = layer;
-            render::Image batched, single;
+            image::Image batched, single;
             const render::Stats few = renderer.draw(job, batched).stats;
             job.drawUnseen = true;
             const render::Stats many = renderer.draw(job, single).stats;

@@ -1,4 +1,4 @@
-#include "render/camera.h"
+#include "render/plan/camera.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -19,7 +19,7 @@ scene::Scene sceneWith(const glm::dvec3& eye, const glm::dvec3& target) {
 
 double depthAt(const scene::Camera& camera, double distance) {
     const glm::dvec4 clip =
-        render::clipFromView(camera, 1.0, glm::dvec2(0.0)) * glm::dvec4(0, 0, -distance, 1);
+        render::viewOf(camera, glm::ivec2(64)).clip * glm::dvec4(0, 0, -distance, 1);
     return clip.z / clip.w;
 }
 
@@ -41,7 +41,7 @@ TEST_CASE("the view rotation is orthonormal and looks along -Z, also straight up
     scene::Camera camera;
     camera.eye = glm::dvec3(0.0);
     camera.target = target;
-    const glm::dmat3 view = render::viewRotation(camera);
+    const glm::dmat3 view = render::viewOf(camera, glm::ivec2(64)).rotation;
     const glm::dmat3 product = view * glm::transpose(view);
     for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j)
@@ -72,20 +72,20 @@ TEST_CASE("azimuth and elevation orbit about the target, what is left out stays"
 }
 
 TEST_CASE("a scene without a camera is framed: all corners are inside the view") {
-    const double aspect = GENERATE(0.25, 1.0, 4.0);
+    const glm::ivec2 size = GENERATE(glm::ivec2(16, 64), glm::ivec2(64), glm::ivec2(256, 64));
+    const double aspect = static_cast<double>(size.x) / size.y;
     const glm::dvec3 center = GENERATE(glm::dvec3(0), glm::dvec3(1e6, -50, 3));
     Box box;
     box.add(center - glm::dvec3(3, 1, 0.5));
     box.add(center + glm::dvec3(3, 1, 0.5));
     const scene::Camera camera =
         render::chooseCamera(scene::Scene{}, PictureOptions{}, box, aspect);
-    const glm::dmat3 view = render::viewRotation(camera);
-    const glm::dmat4 clip = render::clipFromView(camera, aspect, glm::dvec2(0.0));
+    const render::ViewTransform view = render::viewOf(camera, size);
     for (int corner = 0; corner < 8; ++corner) {
         const glm::dvec3 point(corner & 1 ? box.max.x : box.min.x,
                                corner & 2 ? box.max.y : box.min.y,
                                corner & 4 ? box.max.z : box.min.z);
-        const glm::dvec4 p = clip * glm::dvec4(view * (point - camera.eye), 1.0);
+        const glm::dvec4 p = view.clip * glm::dvec4(view.eyeFromWorld(point), 1.0);
         CHECK(std::abs(p.x) < p.w);
         CHECK(std::abs(p.y) < p.w);
         CHECK(p.z > 0.0);
@@ -130,4 +130,52 @@ TEST_CASE("where a scene has no camera, near and far follow the eye that is aske
     const scene::Camera near = render::chooseCamera(scene::Scene{}, options, small, 1.0);
     CHECK(near.near < 0.8);
     CHECK(near.far > 2.8);
+}
+
+TEST_CASE("a view says what a pixel spans, and moves by parts of a pixel") {
+    scene::Camera camera;
+    camera.fovDeg = 90.0;
+    const render::ViewTransform view = render::viewOf(camera, {200, 100});
+    CHECK(view.tanHalfFov.y == Approx(1.0));
+    CHECK(view.tanHalfFov.x == Approx(2.0));
+    CHECK(view.pixelAngle == Approx(0.02));
+    // A point in the middle of a pixel moves a quarter of it to the right and an eighth up.
+    const auto pixelAt = [&](const glm::dmat4& clip) {
+        const glm::dvec4 p = clip * glm::dvec4(0.31, -0.23, -7.0, 1.0);
+        return (glm::dvec2(p) / p.w + 1.0) * 0.5 * glm::dvec2(view.size);
+    };
+    const glm::dvec2 moved = pixelAt(render::movedClip(view, {0.25, 0.125})) - pixelAt(view.clip);
+    CHECK(std::abs(moved.x) == Approx(0.25));
+    CHECK(std::abs(moved.y) == Approx(0.125));
+}
+
+TEST_CASE("a scene without camera is framed, and orbited on demand; engine is the 2017 start") {
+    scene::Scene scene;
+    scene.dialect = scene::Dialect::engine2017;
+    scene.where = {"scene.xml", 1, 1};
+    Box bounds;
+    bounds.add({-1, -1, -1});
+    bounds.add({1, 1, 1});
+    PictureOptions options;
+    const scene::Camera framed = render::chooseCamera(scene, options, bounds, 1.0);
+    CHECK(framed.target == glm::dvec3(0.0));
+    CHECK(glm::length(framed.eye) > 1.8);
+    CHECK(render::noteCameraStart(scene, options)->message.find("frames all models") !=
+          std::string::npos);
+    options.azimuthDeg = 180.0;
+    CHECK(render::chooseCamera(scene, options, bounds, 1.0).eye.z ==
+          Approx(-std::hypot(framed.eye.x, framed.eye.z)));
+    options = {};
+    options.camera = render::CameraStart::engine;
+    const scene::Camera engine = render::chooseCamera(scene, options, bounds, 1.0);
+    CHECK(engine.eye == glm::dvec3(0.0));
+    CHECK(engine.target == glm::dvec3(0, 0, 1));
+    CHECK(engine.fovDeg == 45.0);
+    CHECK(engine.near == 1.0);
+    CHECK(engine.far == 1000.0);
+    CHECK(render::noteCameraStart(scene, options)->message.find("2017") != std::string::npos);
+    scene.camera = engine;
+    CHECK_FALSE(render::noteCameraStart(scene, {}));
+    options.camera = render::CameraStart::framed;
+    CHECK(render::chooseCamera(scene, options, bounds, 1.0).eye == framed.eye);
 }

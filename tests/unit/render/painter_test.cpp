@@ -2,14 +2,21 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <functional>
+
+#include "render/plan/passes.h"
+#include "tests/support/plan_scene.h"
 
 // Frames planned by hand, drawn by GL, and held against the shading model evaluated here in
 // double precision (OpenGL 2.1 specification, section 2.14.1).
 using namespace farol;
+using image::Image;
 using render::DrawItem;
 using render::EyeLight;
 using render::FramePlan;
-using render::Image;
+using render::gl::Backend;
+using render::gl::createContext;
+using render::gl::Painter;
 
 namespace {
 
@@ -22,7 +29,7 @@ std::shared_ptr<render::MeshData> wall(int divisions = 1) {
     static std::uint64_t id = 1'000'000;
     auto data = std::make_shared<render::MeshData>();
     data->id = ++id;
-    generator::Mesh& mesh = data->mesh;
+    generator::MeshArrays mesh;
     const auto n = static_cast<std::uint32_t>(divisions);
     for (std::uint32_t j = 0; j <= n; ++j)
         for (std::uint32_t i = 0; i <= n; ++i) {
@@ -38,20 +45,22 @@ std::shared_ptr<render::MeshData> wall(int divisions = 1) {
             for (const std::uint32_t index : {a, a + 1, a + n + 1, a + 1, a + n + 2, a + n + 1})
                 mesh.indices.push_back(index);
         }
+    data->mesh = generator::Mesh(std::move(mesh));
     return data;
 }
 
 FramePlan frame(const std::vector<EyeLight>& lights, scene::Shading shading, int divisions = 1) {
     FramePlan plan;
-    plan.width = plan.height = kSide;
-    plan.shading = shading;
+    plan.style.shading = shading;
     plan.camera.fovDeg = 60.0;
     plan.camera.near = 1.0;
     plan.camera.far = 100.0;
+    plan.view = render::viewOf(plan.camera, glm::ivec2(kSide));
     plan.lightSets = {lights};
     plan.globalAmbient = glm::vec3(0.5F);
     DrawItem item;
     item.mesh = wall(divisions);
+    item.indices = item.mesh->mesh.indices().size();
     item.viewFromObject[3] = glm::vec4(0.0F, 0.0F, -kDistance, 1.0F);
     item.diffuse = glm::vec3(0.8F, 0.4F, 0.2F);
     item.ambient = glm::vec3(0.2F, 0.1F, 0.05F);
@@ -70,17 +79,25 @@ EyeLight light(const glm::vec4& position) {
     return one;
 }
 
-Image draw(render::gl::Painter& painter, const FramePlan& plan) {
+/// Draws a plan's own passes.
+Image drawPasses(Painter& painter, const FramePlan& plan) {
     int calls = 0;
-    render::gl::Painter::Timings timings;
+    Painter::Timings timings;
     Image image;
+    Diagnostics warnings;
     painter.draw(
         plan,
         [](const render::TextureRef&) -> render::UndecodedTexture {
             throw std::logic_error("no texture");
         },
-        image, calls, timings);
+        image, calls, timings, warnings);
     return image;
+}
+
+/// Draws a plan by the passes that its style asks for.
+Image draw(Painter& painter, FramePlan plan) {
+    render::composePasses(plan, painter.facts());
+    return drawPasses(painter, plan);
 }
 
 /// Where the ray of a pixel's centre meets the wall.
@@ -143,7 +160,7 @@ double worst(const FramePlan& plan, const Image& image, double edge = 0.0) {
 }  // namespace
 
 TEST_CASE("phong shading is the specification's, pixel by pixel") {
-    render::gl::Painter painter;
+    Painter painter(createContext(Backend::osmesa));
     FramePlan plan;
     SECTION("no light: emission and global ambient") {
         plan = frame({}, scene::Shading::phong);
@@ -177,7 +194,7 @@ TEST_CASE("phong shading is the specification's, pixel by pixel") {
 }
 
 TEST_CASE("a spot lights its cone and falls off within it") {
-    render::gl::Painter painter;
+    Painter painter(createContext(Backend::osmesa));
     const float exponent = GENERATE(0.0F, 8.0F);
     EyeLight one = light({0.0F, 0.0F, -2.0F, 1.0F});
     one.spot = glm::vec4(0.0F, 0.0F, -1.0F, std::cos(glm::radians(25.0F)));
@@ -189,7 +206,7 @@ TEST_CASE("a spot lights its cone and falls off within it") {
 }
 
 TEST_CASE("gouraud is exact at vertices and linear between them") {
-    render::gl::Painter painter;
+    Painter painter(createContext(Backend::osmesa));
     const FramePlan coarse = frame({light({0.5F, 0.0F, -4.0F, 1.0F})}, scene::Shading::gouraud, 1);
     const FramePlan fine = frame({light({0.5F, 0.0F, -4.0F, 1.0F})}, scene::Shading::gouraud, 64);
     // A fine mesh comes close to per-pixel shading, a coarse one misses the light in the middle.
@@ -198,7 +215,7 @@ TEST_CASE("gouraud is exact at vertices and linear between them") {
 }
 
 TEST_CASE("flat shading gives every face one colour, that of its middle") {
-    render::gl::Painter painter;
+    Painter painter(createContext(Backend::osmesa));
     const FramePlan plan = frame({light({0.5F, 0.0F, -4.0F, 1.0F})}, scene::Shading::flat, 1);
     const Image image = draw(painter, plan);
     // Two triangles: lower left and upper right of the diagonal from top left to bottom right.
@@ -213,7 +230,7 @@ TEST_CASE("flat shading gives every face one colour, that of its middle") {
 }
 
 TEST_CASE("faces seen from behind are culled, mirrored objects are not") {
-    render::gl::Painter painter;
+    Painter painter(createContext(Backend::osmesa));
     FramePlan plan = frame({}, scene::Shading::phong);
     plan.items[0].viewFromObject[0].x = -1.0F;  // mirrored: clockwise now
     CHECK(draw(painter, plan).pixels[0] == 0);
@@ -222,12 +239,12 @@ TEST_CASE("faces seen from behind are culled, mirrored objects are not") {
 }
 
 TEST_CASE("more samples leave inner pixels alone and soften edges") {
-    render::gl::Painter painter;
+    Painter painter(createContext(Backend::osmesa));
     FramePlan plan = frame({}, scene::Shading::phong);
     plan.items[0].viewFromObject[3].x = 4.0F + 0.03F;  // the left edge within a pixel column
     for (const int samples : {1, 2, 4, 8, 16}) {
         CAPTURE(samples);
-        plan.samples = samples;
+        plan.style.samples = samples;
         const Image image = draw(painter, plan);
         CHECK(image.pixels[(10 * kSide + 60) * 4] == 26);
         CHECK(image.pixels[(10 * kSide + 5) * 4] == 0);
@@ -240,10 +257,10 @@ TEST_CASE("more samples leave inner pixels alone and soften edges") {
 }
 
 TEST_CASE("a transparent background keeps straight alpha") {
-    render::gl::Painter painter;
+    Painter painter(createContext(Backend::osmesa));
     FramePlan plan = frame({}, scene::Shading::phong);
-    plan.background = glm::vec4(0.0F);
-    plan.samples = 4;
+    plan.style.background = glm::vec4(0.0F);
+    plan.style.samples = 4;
     plan.items[0].viewFromObject[3].x = 4.0F + 0.03F;
     const Image image = draw(painter, plan);
     CHECK(image.pixels[(10 * kSide + 5) * 4 + 3] == 0);
@@ -255,19 +272,19 @@ TEST_CASE("a transparent background keeps straight alpha") {
 }
 
 TEST_CASE("the same plan gives the same bytes, in one painter and in two") {
-    render::gl::Painter first;
-    render::gl::Painter second;
+    Painter first(createContext(Backend::osmesa));
+    Painter second(createContext(Backend::osmesa));
     FramePlan plan = frame({light({1.0F, 0.5F, -3.0F, 1.0F})}, scene::Shading::phong, 7);
-    plan.samples = 8;
+    plan.style.samples = 8;
     const Image image = draw(first, plan);
     CHECK(draw(first, plan) == image);
     CHECK(draw(second, plan) == image);
 }
 
 TEST_CASE("the id layer tells items apart") {
-    render::gl::Painter painter;
+    Painter painter(createContext(Backend::osmesa));
     FramePlan plan = frame({}, scene::Shading::phong);
-    plan.layer = render::Layer::id;
+    plan.style.layer = render::Layer::id;
     plan.items[0].id = 0x010203;
     const Image image = draw(painter, plan);
     CHECK(image.pixels[0] == 1);
@@ -276,12 +293,140 @@ TEST_CASE("the id layer tells items apart") {
 }
 
 TEST_CASE("the normal layer shows world normals, the depth layer near over distance") {
-    render::gl::Painter painter;
+    Painter painter(createContext(Backend::osmesa));
     FramePlan plan = frame({}, scene::Shading::phong);
-    plan.layer = render::Layer::normal;
+    plan.style.layer = render::Layer::normal;
     const Image normals = draw(painter, plan);
     CHECK(normals.pixels[2] == 255);
     CHECK(std::abs(normals.pixels[0] - 128) <= 1);
-    plan.layer = render::Layer::depth;
+    plan.style.layer = render::Layer::depth;
     CHECK(draw(painter, plan).pixels[0] == 51);  // 1 / 5
+}
+
+TEST_CASE("passes are drawn in their order, each by its own state and features") {
+    Painter painter(createContext(Backend::osmesa));
+    FramePlan plan = frame({}, scene::Shading::phong);
+    plan.items[0].viewFromObject[3].x = 4.0F;  // the right half
+    plan.items.push_back(plan.items[0]);
+    plan.items[1].viewFromObject[3] = glm::vec4(0.0F, 4.0F, -2.0F * kDistance, 1.0F);  // behind
+    plan.items[1].id = 0x0000FF;
+    render::composePasses(plan, painter.facts());
+    REQUIRE(plan.passes.size() == 1);
+    REQUIRE(plan.passes[0].items.size() == 1);
+    REQUIRE(plan.batches.batches.size() == 2);
+    const auto at = [](const Image& image, int x, int y) {
+        const std::uint8_t* pixel = &image.pixels[static_cast<std::size_t>(y * kSide + x) * 4];
+        return glm::ivec3(pixel[0], pixel[1], pixel[2]);
+    };
+    const Image both = drawPasses(painter, plan);
+    const glm::ivec3 lit = at(both, 60, 60);
+    CHECK(lit == glm::ivec3(26, 13, 6));  // ambient times 0.5
+
+    // The second model apart, over everything, in a colour of its own.
+    render::Pass over = plan.passes[0];
+    plan.passes[0].items[0].count = 1;
+    plan.passes[0].target.output = render::PassOutput::none;
+    over.target.clearColor.reset();
+    over.target.clearDepth = false;
+    over.state.depthTest = false;
+    over.items[0].first = 1;
+    over.items[0].count = 1;
+    over.features = {render::Feature::lightCount, render::Feature::layerId};
+    over.itemFeatures = {};
+    plan.batches.batches[1].plainColor = glm::vec3(0.0F, 0.0F, 1.0F);
+    plan.passes.push_back(over);
+    const Image two = drawPasses(painter, plan);
+    CHECK(at(two, 60, 60) == lit);                    // the first pass's pixels stay
+    CHECK(at(two, 44, 10) == glm::ivec3(0, 0, 255));  // before the first model, though behind it
+    CHECK(at(both, 44, 10) == lit);
+    CHECK(at(two, 4, 60) == glm::ivec3(0));
+}
+
+TEST_CASE("a pass that fills the depth alone hides what is behind it from the next") {
+    Painter painter(createContext(Backend::osmesa));
+    FramePlan plan = frame({light({1.0F, 0.5F, -3.0F, 1.0F})}, scene::Shading::phong, 7);
+    plan.style.samples = 4;
+    render::composePasses(plan, painter.facts());
+    const Image image = drawPasses(painter, plan);
+    // What hides everything behind it, and shows nothing itself: a wall before the right half.
+    plan.items.push_back(plan.items[0]);
+    plan.items[1].viewFromObject[3] = glm::vec4(4.0F, 0.0F, -2.5F, 1.0F);
+    render::composePasses(plan, painter.facts());
+    REQUIRE(plan.batches.batches.size() == 2);
+    plan.passes.insert(plan.passes.begin(), plan.passes[0]);
+    plan.passes[0].items[0] = {render::PassItem::Kind::models, 1, 1, -1};
+    plan.passes[0].features = {render::Feature::lightCount, render::Feature::layerId};
+    plan.passes[0].itemFeatures = {};
+    plan.passes[0].target.output = render::PassOutput::none;
+    plan.passes[1].items[0] = {render::PassItem::Kind::models, 0, 1, -1};
+    plan.passes[1].target.clearDepth = false;  // its colour is cleared
+    const Image hidden = drawPasses(painter, plan);
+    for (int y = 0; y < kSide; y += 9) {
+        const std::size_t left = static_cast<std::size_t>(y * kSide + 2) * 4;
+        const std::size_t right = static_cast<std::size_t>(y * kSide + kSide - 3) * 4;
+        CHECK(hidden.pixels[left] == image.pixels[left]);
+        CHECK(hidden.pixels[right] == 0);
+        CHECK(image.pixels[right] > 0);
+    }
+}
+
+namespace {
+
+/// A real context that says less of itself.
+class Lesser final : public render::gl::Context {
+  public:
+    explicit Lesser(const std::function<void(render::GlFacts&)>& change) : facts_(real_->facts()) {
+        change(facts_);
+    }
+    void makeCurrent() override { real_->makeCurrent(); }
+    const render::gl::Api& api() const override { return real_->api(); }
+    const render::GlFacts& facts() const override { return facts_; }
+
+  private:
+    std::unique_ptr<render::gl::Context> real_ = createContext(Backend::osmesa);
+    render::GlFacts facts_;
+};
+
+}  // namespace
+
+TEST_CASE("a backend that is not there is named, the one that is says what it can do") {
+    CHECK_THROWS_WITH(createContext(Backend::egl),
+                      Catch::Contains("egl") && Catch::Contains("osmesa"));
+    const auto context = createContext(Backend::osmesa);
+    const render::GlFacts& gl = context->facts();
+    // What tests plan with is what this GL says.
+    const render::GlFacts usual = support::fourSamples();
+    CHECK(gl.samplePatterns == usual.samplePatterns);
+    CHECK(gl.snapPx == usual.snapPx);
+    CHECK(gl.maxTargetSide >= render::kMaxSide);
+    CHECK(gl.maxTextureSide >= render::kMaxSide);
+    CHECK(gl.maxFaceSide >= render::kMaxFaceSide);
+    CHECK(gl.maxAnisotropy >= 2.0F);
+    CHECK(gl.version.find("4.5") == 0);
+    CHECK(gl.description() == gl.renderer + ", " + gl.version);
+}
+
+TEST_CASE("without an extension for it, rows are turned over after reading") {
+    Painter painter(createContext(Backend::osmesa));
+    Painter plain(std::make_unique<Lesser>([](render::GlFacts& gl) { gl.packInvert = false; }));
+    REQUIRE(painter.facts().packInvert);
+    FramePlan plan = frame({light({1.0F, 0.5F, -3.0F, 1.0F})}, scene::Shading::phong, 7);
+    for (const int samples : {1, 4, 8}) {
+        plan.style.samples = samples;
+        CHECK(draw(plain, plan) == draw(painter, plan));
+    }
+}
+
+TEST_CASE("without multisampling every sample is a pass, and the picture about the same") {
+    Painter painter(createContext(Backend::osmesa));
+    Painter single(
+        std::make_unique<Lesser>([](render::GlFacts& gl) { gl.samplePatterns.clear(); }));
+    FramePlan plan = frame({}, scene::Shading::phong);
+    plan.items[0].viewFromObject[3].x = 4.0F + 0.03F;
+    plan.style.samples = 16;
+    render::composePasses(plan, single.facts());
+    CHECK(plan.passes.size() == 16);
+    const Image sixteen = drawPasses(single, plan), usual = draw(painter, plan);
+    for (std::size_t i = 0; i < usual.pixels.size(); ++i)
+        REQUIRE(std::abs(usual.pixels[i] - sixteen.pixels[i]) <= 4);
 }

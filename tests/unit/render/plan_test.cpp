@@ -1,8 +1,10 @@
-#include "render/plan.h"
+#include "render/plan/plan.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
+
+#include "tests/support/plan_scene.h"
 
 using namespace farol;
 using render::FramePlan;
@@ -13,7 +15,7 @@ namespace {
 scene::Model sphere() {
     scene::Model model;
     model.source.kind = scene::ModelSource::Kind::shape;
-    model.source.words = {"sphere", "1", "8", "8"};
+    model.source.shape = generator::parseCall({"sphere", "1", "8", "8"});
     return model;
 }
 
@@ -31,7 +33,7 @@ scene::Scene sceneAt(const std::vector<glm::dvec3>& places) {
 
 FramePlan planOf(const scene::Scene& scene, const PictureOptions& options = {}) {
     render::MeshLibrary meshes(1 << 20);
-    return render::plan(scene, options, scene::BundleAssets(), meshes);
+    return support::planScene(scene, options, scene::BundleAssets(), meshes);
 }
 
 }  // namespace
@@ -67,7 +69,7 @@ TEST_CASE("culling never drops a model of which a point is in view") {
         const auto* scale = std::get_if<scene::Scale>(&scene.groups[0].transforms[1]);
         render::MeshLibrary meshes(1 << 20);
         for (const glm::vec3& vertex :
-             meshes.get(sphere(), scene::BundleAssets())->mesh.positions) {
+             meshes.get(sphere(), scene::BundleAssets())->mesh.positions()) {
             const glm::dvec3 p =
                 glm::dvec3(vertex) * scale->factors + move->offset - scene.camera->eye;
             const double reach = -p.z * std::tan(glm::radians(30.0));
@@ -83,29 +85,29 @@ TEST_CASE("culling never drops a model of which a point is in view") {
 TEST_CASE("the error asked for chooses the samples, unless they are asked for") {
     const scene::Scene scene = sceneAt({{0, 0, 0}});
     PictureOptions options;
-    CHECK(planOf(scene, options).samples == 4);
+    CHECK(planOf(scene, options).style.samples == 4);
     for (const auto& [errorPx, samples] :
          {std::pair{2.0, 1}, {1.0, 1}, {0.5, 4}, {0.1, 4}, {0.05, 8}, {0.01, 16}}) {
         options.errorPx = errorPx;
-        CHECK(planOf(scene, options).samples == samples);
+        CHECK(planOf(scene, options).style.samples == samples);
     }
     options.samples = 2;
-    CHECK(planOf(scene, options).samples == 2);
+    CHECK(planOf(scene, options).style.samples == 2);
 }
 
 TEST_CASE("shading is chosen by what the scene holds") {
     scene::Scene scene = sceneAt({{0, 0, 0}});
-    CHECK(planOf(scene).shading == scene::Shading::wireframe);
+    CHECK(planOf(scene).style.shading == scene::Shading::wireframe);
     scene.groups[0].models[0].material = scene::Material{};
-    CHECK(planOf(scene).shading == scene::Shading::solid);
+    CHECK(planOf(scene).style.shading == scene::Shading::solid);
     scene.lights.emplace_back();
-    CHECK(planOf(scene).shading == scene::Shading::phong);
-    CHECK(planOf(scene).lit);
+    CHECK(planOf(scene).style.shading == scene::Shading::phong);
+    CHECK(planOf(scene).style.lit);
     scene.settings.shading = scene::Shading::flat;
-    CHECK(planOf(scene).shading == scene::Shading::flat);
+    CHECK(planOf(scene).style.shading == scene::Shading::flat);
     PictureOptions options;
     options.shading = scene::Shading::gouraud;
-    CHECK(planOf(scene, options).shading == scene::Shading::gouraud);
+    CHECK(planOf(scene, options).style.shading == scene::Shading::gouraud);
 }
 
 TEST_CASE("normals stay perpendicular under any scale, also mirrored and flattened") {
@@ -187,15 +189,15 @@ TEST_CASE("a picture that only a model outside the view shows is not asked for")
     CHECK(plan.textures[0].chess->columns == 2);
     CHECK(plan.stats.texturesSkipped == 1);
     render::MeshLibrary meshes(1 << 20);
-    const FramePlan whole = render::plan(scene, PictureOptions(), scene::BundleAssets(), meshes,
-                                         render::Skipping{false, false, false});
+    const FramePlan whole = support::planScene(scene, PictureOptions(), scene::BundleAssets(),
+                                               meshes, render::Skipping{false, false, false});
     CHECK(whole.textures.size() == 2);
     CHECK(whole.stats.texturesSkipped == 0);
 }
 
 TEST_CASE("tessellation on demand is bounded over all copies, not for each alone") {
     scene::Scene scene = sceneAt({{0, 0, 8.5}});
-    scene.groups[0].models[0].source.words = {"sphere", "1"};
+    scene.groups[0].models[0].source.shape = generator::parseCall({"sphere", "1"});
     PictureOptions fine;
     fine.width = fine.height = 4096;
     fine.errorPx = 0.01;

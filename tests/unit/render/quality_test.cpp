@@ -1,4 +1,4 @@
-#include "render/quality.h"
+#include "render/plan/quality.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,12 +1,12 @@
 #include <catch2/catch.hpp>
 
-#include "render/encode.h"
-#include "render/image_file.h"
+#include "image/format.h"
+#include "image/image_file.h"
 #include "render/renderer.h"
 
 // Whole scenes, from XML to pixels.
 using namespace farol;
-using render::Image;
+using image::Image;
 
 namespace {
 
@@ -67,7 +67,7 @@ TEST_CASE("a light fixed to the camera lights the same side of the picture from 
 
 TEST_CASE("an entity stays before the camera while the world turns") {
     const std::string xml =
-        "<scene><entity file='ship.xml'/>"
+        "<scene camera='engine'><entity file='ship.xml'/>"  // 45 degrees
         "<models><model file='box_6_2.3d' diffR='0' diffG='1' diffB='0'/></models></scene>";
     const std::map<std::string, std::string> files{
         {"ship.xml",
@@ -102,7 +102,7 @@ TEST_CASE("a texture stands upright: its top row is the top of a box's face") {
     const Image image = picture(
         "<world><camera><position x='0' y='0' z='3'/><lookAt x='0' y='0' z='0'/></camera><group>"
         "<models><model file='box_2_1.3d'><texture file='t.png'/></model></models></group></world>",
-        {{"filter", "nearest"}}, {{"t.png", render::encodePng(texture)}});
+        {{"filter", "nearest"}}, {{"t.png", image::encodePng(texture)}});
     CHECK(at(image, 32, 20) == glm::ivec3(255, 0, 0));
     CHECK(at(image, 32, 44) == glm::ivec3(0, 0, 255));
 }
@@ -122,7 +122,7 @@ TEST_CASE("a skybox surrounds the scene, in the layout of the cross") {
             for (const int value : {color.r, color.g, color.b, 255})
                 cross.pixels.push_back(static_cast<std::uint8_t>(value));
         }
-    const std::map<std::string, std::string> files{{"sky.png", render::encodePng(cross)}};
+    const std::map<std::string, std::string> files{{"sky.png", image::encodePng(cross)}};
     const std::string xml =
         "<scene><skybox width='500' texture='sky.png'/>"
         "<models><model command='sphere 0.001 4 4'/></models></scene>";
@@ -153,7 +153,7 @@ TEST_CASE("spherical mapping has no mirrored strip at its seam") {
         "<world><camera><position x='-3' y='0' z='0'/><lookAt x='0' y='0' z='0'/></camera><group>"
         "<models><model file='sphere_1_32_32.3d'><texture file='r.png' mapping='sphere'/></model>"
         "</models></group></world>",
-        {}, {{"r.png", render::encodePng(ramp)}});
+        {}, {{"r.png", image::encodePng(ramp)}});
     // From -X the seam (u = 0 and 1) runs down the middle. The linear filter blends the last texel
     // with the first, so the fall takes up to three pixels; a strip would take more, or rise again.
     int first = 64;
@@ -198,7 +198,7 @@ TEST_CASE("texture generation by eye planes moves with the camera, by object pla
             "<models><model file='box_2_1.3d'><texture file='s.png'/><texgen mode='" +
                 mode + "' s='0.5 0 0 0' t='0 1 0 0'/></model></models></group></world>",
             {{"filter", "nearest"}, {"eye", eye}, {"target", "0.5,0,0"}},
-            {{"s.png", render::encodePng(stripes)}});
+            {{"s.png", image::encodePng(stripes)}});
     };
     // The object's stripe edge is at x = 0 of the box; the eye's is in the middle of the picture.
     const Image object = view("object", "0.5,0,3");

@@ -4,12 +4,14 @@
 #include <fstream>
 #include <random>
 
-#include "render/bounds_tree.h"
-#include "render/camera.h"
-#include "render/frustum.h"
-#include "render/light_reach.h"
+#include "render/plan/bounds_tree.h"
+#include "render/plan/camera.h"
+#include "render/plan/frustum.h"
+#include "render/plan/light_reach.h"
+#include "render/plan/sampling.h"
 #include "render/renderer.h"
-#include "render/sampling.h"
+#include "tests/support/paths.h"
+#include "tests/support/plan_scene.h"
 
 // What is left out of a picture must not show: boxes against brute force, pictures against pictures
 // from which nothing is left out.
@@ -46,9 +48,8 @@ scene::Camera cameraAt(const glm::dvec3& eye, const glm::dvec3& target) {
     return camera;
 }
 
-bool inView(const glm::dvec3& point, const scene::Camera& camera, double aspect) {
-    const glm::dvec4 p = render::clipFromView(camera, aspect, glm::dvec2(0.0)) *
-                         glm::dvec4(render::viewRotation(camera) * (point - camera.eye), 1.0);
+bool inView(const glm::dvec3& point, const render::ViewTransform& view) {
+    const glm::dvec4 p = view.clip * glm::dvec4(view.eyeFromWorld(point), 1.0);
     return std::abs(p.x) <= p.w && std::abs(p.y) <= p.w && p.z >= 0.0 && p.z <= p.w;
 }
 
@@ -60,7 +61,7 @@ render::Job jobOf(const std::string& xml) {
 
 /// Both ways of drawing; returns the statistics of the one that skips.
 render::Stats sameWithout(render::Renderer& renderer, render::Job job) {
-    render::Image image, whole;
+    image::Image image, whole;
     const render::Stats stats = renderer.draw(job, image).stats;
     job.drawUnseen = true;
     const render::Stats all = renderer.draw(job, whole).stats;
@@ -93,7 +94,8 @@ TEST_CASE("a box of which a point is in view is never outside, one told inside h
     for (int i = 0; i < 4000; ++i) {
         const scene::Camera camera = cameraAt(placeWithin(30.0), placeWithin(30.0));
         const glm::ivec2 size(static_cast<int>(between(1, 900)), static_cast<int>(between(1, 900)));
-        const Frustum frustum(render::viewRotation(camera), camera.eye, camera, size, 0.25);
+        const render::ViewTransform view = render::viewOf(camera, size);
+        const Frustum frustum(view, 0.25);
         const Box box = boxAt(placeWithin(40.0), i % 3 == 0 ? 30.0 : 3.0);
         unsigned planes = Frustum::kAllPlanes;
         const Frustum::Side side = frustum.test(box, planes);
@@ -103,7 +105,7 @@ TEST_CASE("a box of which a point is in view is never outside, one told inside h
         for (int k = 0; k < 60; ++k) {
             const glm::dvec3 point =
                 glm::mix(box.min, box.max, glm::dvec3(between(0, 1), between(0, 1), between(0, 1)));
-            const bool seen = inView(point, camera, static_cast<double>(size.x) / size.y);
+            const bool seen = inView(point, view);
             if (side == Frustum::Side::outside) REQUIRE_FALSE(seen);
             // Inside is told of the view widened by two pixels: nothing needs drawing less.
         }
@@ -121,7 +123,7 @@ TEST_CASE("the tree finds the same boxes as a look at each of them") {
         const render::BoundsTree tree(boxes);
         for (int view = 0; view < 20; ++view) {
             const scene::Camera camera = cameraAt(placeWithin(100.0), placeWithin(100.0));
-            const Frustum frustum(render::viewRotation(camera), camera.eye, camera, {64, 48}, 0.25);
+            const Frustum frustum(render::viewOf(camera, {64, 48}), 0.25);
             const render::BoundsTree::Found found = tree.find(frustum);
             REQUIRE(found.sides.size() == boxes.size());
             for (std::size_t i = 0; i < boxes.size(); ++i) {
@@ -139,19 +141,20 @@ TEST_CASE("a group beside the view costs one test, however many models it holds"
     for (int i = 0; i < 10'000; ++i) boxes.push_back(boxAt(glm::dvec3(500, 0, 0), 5.0));
     const render::BoundsTree tree(boxes);
     const scene::Camera camera = cameraAt(glm::dvec3(0, 0, 10), glm::dvec3(0));
-    const Frustum frustum(render::viewRotation(camera), camera.eye, camera, {64, 64}, 0.25);
+    const Frustum frustum(render::viewOf(camera, {64, 64}), 0.25);
     CHECK(tree.find(frustum).tests == 1);
     CHECK(tree.find(frustum).groupsSkipped == 1);
     const scene::Camera towards = cameraAt(glm::dvec3(400, 0, 40), glm::dvec3(500, 0, 0));
     scene::Camera wide = towards;
     wide.far = 1000.0;
-    const Frustum within(render::viewRotation(wide), wide.eye, wide, {64, 64}, 0.25);
+    const Frustum within(render::viewOf(wide, {64, 64}), 0.25);
     CHECK(tree.find(within).tests == 1);
 }
 
 TEST_CASE("a rectangle misses the samples only where none lies in it") {
+    const render::GlFacts gl = support::fourSamples();
     for (const int samples : {1, 2, 4, 8, 16}) {
-        const render::SamplePattern pattern = render::samplePattern(samples);
+        const render::SamplePattern pattern = render::samplePattern(samples, gl);
         CHECK(static_cast<int>(pattern.size()) >= samples);
         for (int i = 0; i < 2000; ++i) {
             render::PixelRect rect;
@@ -165,10 +168,10 @@ TEST_CASE("a rectangle misses the samples only where none lies in it") {
                         hit |= p.x >= rect.min.x && p.x <= rect.max.x && p.y >= rect.min.y &&
                                p.y <= rect.max.y;
                     }
-            if (hit) REQUIRE_FALSE(render::missesSamples(rect, pattern));
+            if (hit) REQUIRE_FALSE(render::missesSamples(rect, pattern, gl.snapPx));
         }
     }
-    CHECK(render::missesSamples({{0.6, 0.6}, {0.9, 0.9}}, render::samplePattern(1)));
+    CHECK(render::missesSamples({{0.6, 0.6}, {0.9, 0.9}}, render::samplePattern(1, gl), gl.snapPx));
 }
 
 TEST_CASE("dust between the samples is left out and does not show") {
@@ -211,7 +214,7 @@ TEST_CASE("lights whose cone a model is outside of are left out of it, and do no
 TEST_CASE("every example scene gives the same picture with nothing left out") {
     render::Renderer renderer;
     int culled = 0, scenes = 0;
-    for (const auto& entry : fs::directory_iterator(fs::path(FAROL_SOURCE_DIR) / "scenes")) {
+    for (const auto& entry : fs::directory_iterator(fs::path(farol::test::kSourceDir) / "scenes")) {
         const fs::path file = entry.path() / "scene.xml";
         if (!fs::exists(file)) continue;
         ++scenes;

@@ -1,8 +1,8 @@
-#include "render/skybox.h"
+#include "render/plan/skybox.h"
 
 #include <catch2/catch.hpp>
 
-using farol::render::Image;
+using farol::image::Image;
 
 TEST_CASE("the faces of a cube map are the cells of the cross") {
     // Each cell of 4x3 has its number as its colour.

@@ -1,10 +1,10 @@
-#include "render/texture_levels.h"
+#include "render/plan/texture_levels.h"
 
 #include <catch2/catch.hpp>
 #include <thread>
 
 using namespace farol;
-using render::Image;
+using image::Image;
 using render::TextureLevels;
 using render::TextureRef;
 using render::UndecodedTexture;
@@ -38,7 +38,7 @@ TEST_CASE("pictures come in their order however long each takes, bottom row firs
     const auto open = [](const TextureRef& ref) {
         const int index = std::stoi(ref.key);
         return UndecodedTexture{
-            1 << (index % 26), 1, [index] {
+            1 << (index % 26), 1, [index](std::string&) {
                 std::this_thread::sleep_for(std::chrono::milliseconds(index % 4 == 0 ? 5 : 0));
                 return column(index + 2);
             }};
@@ -67,7 +67,7 @@ TEST_CASE("pictures come in their order however long each takes, bottom row firs
         CHECK(next == 0);
         CHECK(expected > 0);
     };
-    render::loadTextures(pointers(refs), open, {expect, idle, take});
+    render::loadTextures(pointers(refs), open, {expect, idle, take}, render::GlFacts{});
     CHECK(meanwhile == 1);
     CHECK(next == 30);
 }
@@ -80,13 +80,14 @@ TEST_CASE("without smaller levels where the filter reads none") {
                                         {scene::Filter::anisotropic, 4}}) {
         refs[0].filter = filter;
         std::size_t images = 0;
-        render::loadTextures(pointers(refs),
-                             [](const TextureRef&) {
-                                 return UndecodedTexture{1, 8, [] { return column(8); }};
-                             },
-                             {.take = [&](const TextureRef&, const TextureLevels& got) {
-                                 images = got.images.size();
-                             }});
+        render::loadTextures(
+            pointers(refs),
+            [](const TextureRef&) {
+                return UndecodedTexture{1, 8, [](std::string&) { return column(8); }};
+            },
+            {.take = [&](const TextureRef&,
+                         const TextureLevels& got) { images = got.images.size(); }},
+            render::GlFacts{});
         CHECK(images == static_cast<std::size_t>(count));
     }
 }
@@ -98,7 +99,7 @@ TEST_CASE("of several faults the first in order is told, whether of a head or of
             const auto open = [&](const TextureRef& ref) {
                 const int index = std::stoi(ref.key);
                 if (index == head) throw Error("image.unreadable", "head");
-                return UndecodedTexture{1, 1, [index, pixels]() -> Image {
+                return UndecodedTexture{1, 1, [index, pixels](std::string&) -> Image {
                                             if (index == pixels)
                                                 throw Error("image.unreadable", "pixels");
                                             return column(2);
@@ -107,11 +108,63 @@ TEST_CASE("of several faults the first in order is told, whether of a head or of
             std::string told;
             try {
                 render::loadTextures(pointers(refs), open,
-                                     {.take = [](const TextureRef&, const TextureLevels&) {}});
+                                     {.take = [](const TextureRef&, const TextureLevels&) {}},
+                                     render::GlFacts{});
             } catch (const Error& error) {
                 told = error.what();
             }
             CAPTURE(head, pixels);
             CHECK(told.find(head < pixels ? "head" : "pixels") != std::string::npos);
         }
+}
+
+TEST_CASE("textures over the limits are scaled down with a note, each axis for itself") {
+    std::vector<TextureRef> refs = refsOf(1);
+    refs[0].filter = scene::Filter::nearest;
+    TextureLevels levels;
+    const auto load = [&](int height, int side) {
+        render::GlFacts gl;
+        gl.maxTextureSide = side;
+        render::loadTextures(
+            pointers(refs),
+            [&](const TextureRef&) {
+                return UndecodedTexture{1, height,
+                                        [height](std::string&) { return column(height); }};
+            },
+            {.take = [&](const TextureRef&, const TextureLevels& got) { levels = got; }}, gl);
+    };
+    load(8, 8);
+    CHECK(levels.images[0].height == 8);
+    CHECK(levels.notes.empty());
+    load(9, 6);
+    REQUIRE(levels.images[0].height == 6);
+    CHECK(levels.images[0].width == 1);
+    // Rows 0..8 in six bands of 1.5 rows each, bottom first: the last is (8 + 7 / 2) / 1.5.
+    CHECK(levels.images[0].pixels.front() == 8);
+    CHECK(levels.images[0].pixels.back() == 0);
+    REQUIRE(levels.notes.size() == 1);
+    CHECK(std::string(levels.notes[0].code) == "image.scaled");
+    CHECK(levels.notes[0].text.find("1 x 9 px") != std::string::npos);
+    CHECK(levels.notes[0].text.find("1 x 6 px") != std::string::npos);
+}
+
+TEST_CASE("a wide, low cross makes no faces many times its own size") {
+    std::vector<TextureRef> refs = refsOf(1);
+    refs[0].cube = true;
+    TextureLevels levels;
+    render::GlFacts gl;
+    gl.maxFaceSide = 16;
+    render::loadTextures(
+        pointers(refs),
+        [&](const TextureRef&) {
+            return UndecodedTexture{400, 3, [](std::string&) {
+                                        Image cross{400, 3, {}};
+                                        cross.pixels.assign(std::size_t{400} * 3 * 4, 7);
+                                        return cross;
+                                    }};
+        },
+        {.take = [&](const TextureRef&, const TextureLevels& got) { levels = got; }}, gl);
+    REQUIRE(levels.images.size() == 6);
+    for (const Image& face : levels.images) CHECK((face.width == 16 && face.height == 16));
+    CHECK(levels.notes.size() == 1);
 }

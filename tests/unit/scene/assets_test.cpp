@@ -1,13 +1,16 @@
-#include "scene/assets.h"
+#include "scene/files/assets.h"
 
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
+#include <system_error>
 
-#include "scene/digest.h"
+#include "core/digest.h"
+#include "tests/support/paths.h"
 
 using namespace farol;
 using namespace farol::scene;
@@ -19,7 +22,7 @@ namespace {
 class Folders {
   public:
     Folders() {
-        root_ = fs::path(FAROL_TEST_OUTPUT) / ("assets-" + std::to_string(getpid()));
+        root_ = fs::path(farol::test::kTestOutput) / ("assets-" + std::to_string(getpid()));
         fs::remove_all(root_);
         fs::create_directories(root_ / "in" / "sub");
         fs::create_directories(root_ / "out");
@@ -153,43 +156,63 @@ TEST_CASE("files too large are refused before memory is taken") {
     }
 }
 
-TEST_CASE("a file is found by its path or by its unique name") {
-    const BundleAssets bundle({{"models/box.3d", "1"},
-                               {"tex/Earth.JPG", "2"},
-                               {"a/same.png", "3"},
-                               {"b/same.png", "4"},
-                               {"b/Moon.jpg", "5"},
-                               {"moon.jpg", "6"}});
-    struct Case {
-        std::string wanted, found, code;
-    };
-    const Case cases[] = {
-        {"models/box.3d", "models/box.3d", ""},
-        {"./models/box.3d", "models/box.3d", ""},
-        {"models\\box.3d", "models/box.3d", ""},
-        {"models/./box.3d", "models/box.3d", ""},
-        {"box.3d", "models/box.3d", "asset.found-elsewhere"},
-        {"demos/box.3d", "models/box.3d", "asset.found-elsewhere"},
-        {"../box.3d", "models/box.3d", "asset.found-elsewhere"},
-        {"C:\\Users\\me\\box.3d", "models/box.3d", "asset.found-elsewhere"},
-        {"/abs/box.3d", "models/box.3d", "asset.found-elsewhere"},
-        {"earth.jpg", "tex/Earth.JPG", "asset.found-elsewhere"},
-        {"x/moon.jpg", "moon.jpg", "asset.found-elsewhere"},
-        {"same.png", "", "asset.ambiguous"},
-        {"no.png", "", ""},
-        {"", "", ""},
-        {"..", "", ""},
-        {"models/", "", ""},
-    };
-    for (const Case& one : cases) {
-        INFO(one.wanted);
-        Diagnostics diagnostics;
-        const Location where{"s.xml", 3, 4};
-        CHECK(locate(bundle, one.wanted, where, diagnostics).value_or("") == one.found);
-        CHECK(diagnostics.size() == (one.code.empty() ? 0 : 1));
-        if (one.code.empty() || diagnostics.empty()) continue;
-        CHECK(diagnostics[0].code == one.code);
-        CHECK(diagnostics[0].where == where);
-        CHECK(diagnostics[0].severity == Severity::warning);
+TEST_CASE("entries that are no files are told apart, and links out of the folder left out") {
+    const Folders folders;
+    REQUIRE(mkfifo(folders.path("in/pipe.x").c_str(), 0600) == 0);
+    fs::create_directories(folders.path("in/folder.x"));
+    fs::create_symlink("nowhere", folders.path("in/dangling.x"));
+    fs::create_symlink("sub", folders.path("in/linked.x"));
+    fs::create_symlink("../out", folders.path("in/out.x"));
+    fs::create_symlink("../out/secret.txt", folders.path("in/secret.x"));
+    fs::create_symlink("a.txt", folders.path("in/alias.x"));
+    const FolderAssets assets(folders.inside());
+    std::string found;
+    for (const auto& odd : assets.oddities(".x")) found += odd.path + " " + odd.what + "\n";
+    CHECK(found ==
+          "dangling.x is a link that leads nowhere\nfolder.x is a folder\nlinked.x is a folder\n"
+          "pipe.x is a pipe\n");
+    for (const char* none : {"alias.x", "a.txt", "out.x", "secret.x", "../out", "missing"})
+        CHECK(assets.oddityOf(none) == "");
+    CHECK(assets.size("a.txt") == std::optional<std::uint64_t>(1));
+    CHECK_FALSE(assets.size("pipe.x"));
+}
+
+TEST_CASE("a file that cannot be opened for want of descriptors is not missing") {
+    const Folders folders;
+    const FolderAssets assets(folders.inside());
+    rlimit before{};
+    REQUIRE(getrlimit(RLIMIT_NOFILE, &before) == 0);
+    rlimit none = before;
+    none.rlim_cur = 0;
+    REQUIRE(setrlimit(RLIMIT_NOFILE, &none) == 0);
+    bool readThrew = false, listThrew = false;
+    try {
+        (void)assets.read("a.txt");
+    } catch (const std::system_error&) {
+        readThrew = true;
     }
+    try {
+        (void)assets.list();
+    } catch (const std::system_error&) {
+        listThrew = true;
+    }
+    REQUIRE(setrlimit(RLIMIT_NOFILE, &before) == 0);
+    CHECK(readThrew);
+    CHECK(listThrew);
+    CHECK(assets.read("a.txt") == std::optional<std::string>("A"));
+}
+
+TEST_CASE("another folder under the same path has another identity") {
+    const Folders folders;
+    const std::string path = folders.inside();
+    const auto before = folderIdentity(path);
+    REQUIRE(before);
+    CHECK(folderIdentity(path) == before);
+    fs::rename(path, folders.path("moved"));
+    CHECK_FALSE(folderIdentity(path));
+    fs::create_directories(path);
+    REQUIRE(folderIdentity(path));
+    CHECK(folderIdentity(path) != before);
+    CHECK(folderIdentity(folders.path("moved").string()) == before);
+    CHECK_FALSE(folderIdentity(folders.path("out/secret.txt").string()));
 }

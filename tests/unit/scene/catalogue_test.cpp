@@ -6,6 +6,8 @@
 #include <regex>
 #include <set>
 
+#include "core/text.h"
+#include "tests/support/paths.h"
 #include "tests/unit/scene/reading.h"
 
 using namespace farol;
@@ -27,11 +29,13 @@ std::set<std::string> matches(const std::string& text, const std::string& patter
     return all;
 }
 
-/// String literals that have the form of a code. Names of files have it too: "scene.xml".
+/// String literals that have the form of a code or of a message's id, "code/variant". Names of
+/// files have it too: "scene.xml".
 std::set<std::string> codesInSources() {
     std::set<std::string> all;
-    for (const char* folder : {"scene", "generator", "render", "server", "grade", "cli"}) {
-        const fs::path root = fs::path(FAROL_SOURCE_DIR) / folder;
+    for (const char* folder :
+         {"core", "image", "scene", "generator", "render", "grade", "worker", "server", "cli"}) {
+        const fs::path root = fs::path(farol::test::kSourceDir) / folder;
         if (!fs::is_directory(root)) continue;
         for (const auto& entry : fs::recursive_directory_iterator(root)) {
             const std::string ending = entry.path().extension().string();
@@ -39,23 +43,18 @@ std::set<std::string> codesInSources() {
             all.merge(
                 matches(readFile(entry.path()),
                         "\"((?:xml|scene|asset|shape|mesh|image|limit|option|http|busy|worker|"
-                        "bundle|store|grade|rubric)"
-                        "\\.[a-z]+(?:-[a-z]+)*|not-ready)\""));
+                        "bundle|store|grade|rubric|output|service)"
+                        "\\.[a-z]+(?:-[a-z]+)*|not-ready|internal|usage)(?:/[a-z-]+)?\""));
         }
     }
-    for (const char* file : {"scene.xml", "image.png"}) all.erase(file);
+    for (const char* file : {"scene.xml", "image.png", "image.bmp"}) all.erase(file);
     return all;
 }
 
 const std::string& catalogue() {
-    static const std::string text = readFile(fs::path(FAROL_SOURCE_DIR) / "api" / "errors.md");
+    static const std::string text =
+        readFile(fs::path(farol::test::kSourceDir) / "api" / "errors.md");
     return text;
-}
-
-std::string joined(const std::set<std::string>& names) {
-    std::string all;
-    for (const std::string& name : names) all += name + " ";
-    return all;
 }
 
 }  // namespace
@@ -69,8 +68,8 @@ TEST_CASE("every code of the sources is in the catalogue, and no other") {
                         std::inserter(untold, untold.end()));
     std::set_difference(told.begin(), told.end(), used.begin(), used.end(),
                         std::inserter(unused, unused.end()));
-    CHECK(joined(untold) == "");
-    CHECK(joined(unused) == "");
+    CHECK(farol::joined(untold, " ") == "");
+    CHECK(farol::joined(unused, " ") == "");
 }
 
 TEST_CASE("the examples of the catalogue give their codes") {

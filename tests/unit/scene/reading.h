@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "scene/assets.h"
-#include "scene/reader.h"
+#include "scene/files/assets.h"
+#include "scene/read/reader.h"
 
 /// What the tests of the reader share: one call, either outcome.
 namespace farol::scene::test {

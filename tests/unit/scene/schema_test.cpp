@@ -8,8 +8,10 @@
 #include <filesystem>
 #include <fstream>
 
-#include "scene/tables.h"
-#include "scene/words.h"
+#include "core/text.h"
+#include "scene/read/tables.h"
+#include "tests/support/paths.h"
+#include "tests/support/skip.h"
 #include "tests/unit/scene/reading.h"
 
 using namespace farol::scene;
@@ -18,17 +20,16 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const fs::path kSource = FAROL_SOURCE_DIR;
+const fs::path kSource = farol::test::kSourceDir;
 
 std::string readFile(const fs::path& path) {
     std::ifstream in(path, std::ios::binary);
     return {std::istreambuf_iterator<char>(in), {}};
 }
 
-bool hasXmllint() {
-    static const bool there = std::system("xmllint --version > /dev/null 2>&1") == 0;
-    if (!there) std::puts("skipped: xmllint is not installed");
-    return there;
+void requireXmllint() {
+    if (!farol::test::hasProgram("xmllint"))
+        farol::test::skipMissing("no xmllint (package libxml2-utils)");
 }
 
 bool validates(const fs::path& file) {
@@ -39,9 +40,9 @@ bool validates(const fs::path& file) {
 }
 
 bool validatesText(const std::string& xml) {
-    fs::create_directories(FAROL_TEST_OUTPUT);
+    fs::create_directories(farol::test::kTestOutput);
     const fs::path file =
-        fs::path(FAROL_TEST_OUTPUT) / ("schema-" + std::to_string(getpid()) + ".xml");
+        fs::path(farol::test::kTestOutput) / ("schema-" + std::to_string(getpid()) + ".xml");
     std::ofstream(file, std::ios::binary) << xml;
     const bool good = validates(file);
     fs::remove(file);
@@ -78,7 +79,7 @@ TEST_CASE("schema and reference have every element and attribute of the tables")
         CHECK((plain || !type.empty()));
         const std::string section = sectionOf(docs, element.name);
         CHECK_FALSE(section.empty());
-        for (const std::string_view child : split(element.children)) {
+        for (const std::string_view child : farol::split(element.children)) {
             const std::string name = child == "namedColor" ? "color" : std::string(child);
             INFO("child " << name);
             CHECK(type.find("element name=\"" + name + "\"") != std::string::npos);
@@ -95,7 +96,7 @@ TEST_CASE("schema and reference have every element and attribute of the tables")
 }
 
 TEST_CASE("the schema accepts what the reader takes without a word, and no more") {
-    if (!hasXmllint()) return;
+    requireXmllint();
     const std::string good[] = {
         "<world/>",
         "<scene/>",
@@ -141,7 +142,7 @@ TEST_CASE("the schema accepts what the reader takes without a word, and no more"
 }
 
 TEST_CASE("every example scene is valid by the schema") {
-    if (!hasXmllint()) return;
+    requireXmllint();
     int scenes = 0;
     for (const auto& folder : fs::directory_iterator(kSource / "scenes")) {
         if (!folder.is_directory() || folder.path().filename() == "refused") continue;

@@ -70,3 +70,23 @@ TEST_CASE("a body of a length ends with it") {
     cut.giveUp();
     CHECK(cut.state() == State::broken);
 }
+
+TEST_CASE("extensions of chunks are bounded in all, chunks are not") {
+    BodyReader many(std::nullopt, 1U << 20U);
+    std::string chunks;
+    for (int i = 0; i < 100'000; ++i) chunks += "1\r\nx\r\n";
+    CHECK(many.feed(chunks + "0\r\n\r\n") == chunks.size() + 5);
+    CHECK(many.state() == State::whole);
+    CHECK(many.size() == 100'000);
+    for (const std::string& size : {"1;" + std::string(200, 'e'), std::string(200, '0') + "1"}) {
+        BodyReader padded(std::nullopt, 1U << 20U);
+        int chunksRead = 0;
+        while (padded.state() == State::more && chunksRead < 1000) {
+            padded.feed(size + "\r\nx\r\n");
+            ++chunksRead;
+        }
+        CHECK(padded.state() == State::broken);
+        CHECK(chunksRead > 50);
+        CHECK(chunksRead < 100);
+    }
+}

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "server/scenes.h"
+#include "tests/support/paths.h"
 
 using namespace farol::server;
 namespace fs = std::filesystem;
@@ -18,7 +19,7 @@ namespace {
 
 class Folder {
   public:
-    explicit Folder(const std::string& name) : path_(fs::path(FAROL_TEST_OUTPUT) / name) {
+    explicit Folder(const std::string& name) : path_(fs::path(farol::test::kTestOutput) / name) {
         fs::remove_all(path_);
         fs::create_directories(path_);
         path_ = fs::canonical(path_);

@@ -1,8 +1,8 @@
 #include <catch2/catch.hpp>
 
-#include "server/backend.h"
 #include "server/picture_cache.h"
 #include "server/rate_limiter.h"
+#include "worker/backend.h"
 
 using namespace farol;
 using namespace farol::server;
@@ -21,7 +21,7 @@ int retryAfter(RateLimiter& limiter, const std::string& client, RateLimiter::Clo
     try {
         limiter.admit(client, at);
         return 0;
-    } catch (const Busy& busy) {
+    } catch (const worker::Busy& busy) {
         CHECK(busy.code() == "limit.rate");
         return busy.retryAfterS();
     }

@@ -2,13 +2,13 @@
 #include <catch2/catch.hpp>
 #include <random>
 
-#include "scene/error.h"
+#include "core/error.h"
 #include "server/etag.h"
 #include "server/http/head.h"
 #include "server/http/uri.h"
-#include "server/media.h"
-#include "server/multipart.h"
-#include "server/parameters.h"
+#include "server/request/media.h"
+#include "server/request/multipart.h"
+#include "server/request/parameters.h"
 
 using namespace farol;
 using namespace farol::server;
@@ -55,6 +55,23 @@ TEST_CASE("random heads never do harm") {
         // What is let through is one head and nothing after it.
         if (!head.refusal) CHECK(head.cleaned.find("\r\n\r\n") == head.cleaned.size() - 4);
     }
+}
+
+TEST_CASE("filename* of a part comes before filename") {
+    const auto nameOf = [](const std::string& parameters) {
+        return parseMultipart("--b\r\nContent-Disposition: form-data; name=f; " + parameters +
+                                  "\r\n\r\nx\r\n--b--",
+                              "b")
+            .at(0)
+            .fileName;
+    };
+    CHECK(nameOf("filename=a.png; filename*=UTF-8''ma%C3%A7%C3%A3.png") ==
+          "ma\xC3\xA7\xC3\xA3.png");
+    CHECK(nameOf("filename*=utf-8'pt'a%20b.png; filename=\"c.png\"") == "a b.png");
+    CHECK(nameOf("filename*=ISO-8859-1''%E9.png") == "\xC3\xA9.png");
+    for (const char* bad : {"filename*=a.png", "filename*=UTF-8''%zz", "filename*=UTF-8''%C3",
+                            "filename*=UTF-8''%", "filename*=x''a"})
+        CHECK_THROWS_AS(nameOf(bad), Error);
 }
 
 TEST_CASE("multipart bodies are parted") {

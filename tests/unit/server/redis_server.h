@@ -15,22 +15,22 @@
 #include <vector>
 
 #include "server/store/redis_link.h"
+#include "tests/support/paths.h"
+#include "tests/support/skip.h"
 
 namespace farol::test {
 
-/// A Redis of our own on a free port, with its data in a folder of its own; none where the program
-/// is not installed.
+/// A Redis server on a free port, with its data in a folder for it alone. Skips the test where the
+/// program is not installed.
 class RedisServer {
   public:
     RedisServer() {
         // Debian's redis-tools has the server under another name, and starts no service.
         for (const char* path : {"/usr/bin/redis-server", "/usr/bin/redis-check-rdb"})
             if (program_.empty() && access(path, X_OK) == 0) program_ = path;
-        if (program_.empty()) {
-            WARN("skipped: there is no redis-server (package redis-tools)");
-            return;
-        }
-        folder_ = std::filesystem::path(FAROL_TEST_OUTPUT) / ("redis-" + std::to_string(getpid()));
+        if (program_.empty()) skipMissing("no redis-server (package redis-tools)");
+        folder_ =
+            std::filesystem::path(farol::test::kTestOutput) / ("redis-" + std::to_string(getpid()));
         std::filesystem::remove_all(folder_);
         std::filesystem::create_directories(folder_);
         port_ = freePort();
@@ -41,7 +41,6 @@ class RedisServer {
         std::error_code ignored;
         if (!folder_.empty()) std::filesystem::remove_all(folder_, ignored);
     }
-    explicit operator bool() const { return !program_.empty(); }
     server::store::RedisAddress address() const { return {"127.0.0.1", port_, "", "", 0}; }
 
     void start(const std::vector<std::string>& more = {}) {

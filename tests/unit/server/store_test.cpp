@@ -1,6 +1,7 @@
 // The stores of uploaded scenes, in memory and on disk, held to the same promises.
 #include <fcntl.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -12,10 +13,11 @@
 #include <random>
 #include <thread>
 
-#include "server/backend.h"
 #include "server/store/disk_store.h"
 #include "server/store/memory_store.h"
 #include "server/store/scene_file.h"
+#include "tests/support/paths.h"
+#include "worker/backend.h"
 
 using namespace farol;
 using namespace farol::server;
@@ -30,7 +32,7 @@ scene::Bundle bundleOf(const std::string& text, std::size_t bytes = 0) {
 
 class Folder {
   public:
-    Folder() : path_(fs::path(FAROL_TEST_OUTPUT) / ("store-" + std::to_string(getpid()))) {
+    Folder() : path_(fs::path(farol::test::kTestOutput) / ("store-" + std::to_string(getpid()))) {
         fs::remove_all(path_);
     }
     ~Folder() {
@@ -227,6 +229,131 @@ TEST_CASE("what is damaged while the store is open is not served either") {
     CHECK(store->get(id));
 }
 
+namespace {
+
+/// While it lives, no descriptor from `first` on can be opened (EMFILE).
+class DescriptorLimit {
+  public:
+    explicit DescriptorLimit(int first) {
+        REQUIRE(getrlimit(RLIMIT_NOFILE, &before_) == 0);
+        rlimit limit = before_;
+        limit.rlim_cur = static_cast<rlim_t>(first);
+        REQUIRE(setrlimit(RLIMIT_NOFILE, &limit) == 0);
+    }
+    ~DescriptorLimit() { setrlimit(RLIMIT_NOFILE, &before_); }
+    DescriptorLimit(const DescriptorLimit&) = delete;
+    DescriptorLimit& operator=(const DescriptorLimit&) = delete;
+
+  private:
+    rlimit before_{};
+};
+
+/// The descriptor that is opened next after `count` others.
+int descriptorAfter(int count) {
+    std::vector<int> opened;
+    for (int i = 0; i <= count; ++i) opened.push_back(open("/dev/null", O_RDONLY | O_CLOEXEC));
+    for (const int fd : opened) close(fd);
+    return opened.back();
+}
+
+template <typename Call>
+std::string busyCodeOf(const Call& call) {
+    try {
+        call();
+    } catch (const worker::Busy& busy) {
+        CHECK(busy.retryAfterS() > 0);
+        return busy.code();
+    }
+    return "none";
+}
+
+}  // namespace
+
+TEST_CASE("a store without descriptors is busy, and changes nothing") {
+    const Folder folder;
+    std::string id;
+    {
+        const auto store = openDisk(folder);
+        id = store->put(bundleOf("kept", 300), true).entry.id;
+    }
+    const auto store = openDisk(folder);  // nothing is in its memory now
+    {
+        const DescriptorLimit none(0);
+        CHECK(busyCodeOf([&] { store->get(id); }) == "store.failed");
+        CHECK(busyCodeOf([&] { store->put(bundleOf("new"), true); }) == "store.failed");
+        CHECK(busyCodeOf([&] { store->put(bundleOf("kept", 300), true); }) == "store.failed");
+        CHECK(busyCodeOf([&] { store->remove(id); }) == "store.failed");
+        CHECK(store->list().size() == 1);
+    }
+    CHECK(store->get(id));
+    CHECK(folder.files("aside") == 0);
+    CHECK(folder.files("scenes") == 1);
+    CHECK(folder.files("new") == 0);
+}
+
+TEST_CASE("a file that cannot be read when the store is opened stays, and is read later") {
+    const Folder folder;
+    const auto stored = [&](const char* text) {
+        return openDisk(folder)->put(bundleOf(text, 300), true).entry.id;
+    };
+    const std::string read = stored("read"), sent = stored("sent"), swept = stored("swept"),
+                      gone = stored("gone");
+    std::unique_ptr<DiskStore> store;
+    {
+        // Enough for the lock and the folder, not for a file.
+        const DescriptorLimit few(descriptorAfter(2));
+        store = openDisk(folder);
+        const DescriptorLimit none(0);
+        CHECK(busyCodeOf([&] { store->get(read); }) == "store.failed");
+        // Sent again while the file cannot be read: whether it is listed is not known.
+        CHECK(busyCodeOf([&] { store->put(bundleOf("sent", 300), false); }) == "store.failed");
+        store->expire();
+    }
+    CHECK(folder.files("scenes") == 4);
+    CHECK(folder.files("aside") == 0);
+    CHECK(store->get(read));
+    const SceneStore::Put again = store->put(bundleOf("sent", 300), false);
+    CHECK_FALSE(again.created);
+    CHECK(again.entry.listed);
+    CHECK(store->remove(gone));
+    CHECK(store->list().size() == 2);
+    store->expire();
+    CHECK(store->list().size() == 3);
+    CHECK(store->get(swept));
+    CHECK(folder.files("aside") == 0);
+}
+
+TEST_CASE("a disk that is away is busy; a file that was removed is not there") {
+    const Folder folder;
+    std::vector<std::string> ids;
+    for (const char* text : {"removed", "away"})
+        ids.push_back(openDisk(folder)->put(bundleOf(text, 300), true).entry.id);
+    const auto store = openDisk(folder);
+    const fs::path scenes = fs::path(folder.path()) / "scenes";
+    fs::remove(scenes / (ids[0].substr(1) + ".scene"));
+    CHECK_FALSE(store->get(ids[0]));
+    fs::rename(scenes, fs::path(folder.path()) / "elsewhere");
+    CHECK(busyCodeOf([&] { store->get(ids[1]); }) == "store.failed");
+    fs::rename(fs::path(folder.path()) / "elsewhere", scenes);
+    CHECK(store->get(ids[1]));
+}
+
+TEST_CASE("what was set aside before is never written over") {
+    const Folder folder;
+    const std::string id = openDisk(folder)->put(bundleOf("fine", 300), true).entry.id;
+    const std::string name = id.substr(1) + ".scene";
+    const fs::path aside = fs::path(folder.path()) / "aside";
+    write(aside / name, "earlier");
+    for (int i = 1; i < 1000; ++i) write(aside / (name + "." + std::to_string(i)), "earlier");
+    write(fs::path(folder.path()) / "scenes" / name, "damaged");
+    const auto store = openDisk(folder);
+    CHECK_FALSE(store->get(id));
+    CHECK(folder.files("aside") == 1000);
+    for (const auto& file : fs::directory_iterator(aside)) REQUIRE(read(file.path()) == "earlier");
+    CHECK(store->put(bundleOf("fine", 300), true).created);
+    CHECK(store->get(id));
+}
+
 TEST_CASE("a folder has one server") {
     const Folder folder;
     const auto first = openDisk(folder);
@@ -241,7 +368,7 @@ TEST_CASE("a store that cannot write says so, and keeps nothing of it") {
     std::string code;
     try {
         store->put(bundleOf("after"), true);
-    } catch (const Busy& busy) {
+    } catch (const worker::Busy& busy) {
         code = busy.code();
     }
     CHECK(code == "store.failed");

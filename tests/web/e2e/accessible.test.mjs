@@ -24,7 +24,22 @@ const views = {
     },
   },
   editor: { hash: '#/new', ready: (view) => view.page.locator('.cm-content').waitFor() },
-  grade: { hash: '#/grade', ready: (view) => view.page.locator('main h1').waitFor() },
+  grade: {
+    hash: '#/grade', async ready(view) {
+      const file = (name, text) => ({ name, mimeType: 'text/xml', buffer: Buffer.from(text) });
+      const scene = (model) => `<world><group><models><model file="${model}"/></models></group></world>`;
+      for (const [button, files] of [
+        ['Reference: choose files', [file('reference.xml', scene('box_1_2.3d'))]],
+        ['Submissions: choose files', [file('a.xml', scene('box_1_2.3d')), file('b.xml', scene('sphere_1_16_8.3d')), file('c.xml', '<world>')]],
+      ]) {
+        const [chooser] = await Promise.all([view.page.waitForEvent('filechooser'), view.page.getByRole('button', { name: button }).click()]);
+        await chooser.setFiles(files);
+      }
+      await view.page.getByRole('button', { name: 'Grade', exact: true }).click();
+      await view.page.getByText('3 graded.').waitFor({ timeout: 120000 });
+      await view.page.locator('#list tbody tr', { hasText: 'b.xml' }).click();
+    },
+  },
 };
 const looks = [{ colorScheme: 'light', viewport: { width: 1280, height: 800 } }, { colorScheme: 'dark', viewport: { width: 360, height: 740 } }];
 

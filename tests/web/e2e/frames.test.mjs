@@ -89,8 +89,9 @@ test('the pages work under their policy, compressed and kept by browsers', async
   assert.match(asset.headers.get('cache-control'), /immutable/);
   assert.ok(!/https?:\/\/(?!www\.w3\.org)/.test(text), 'no other host');
   const plain = await openPage(browser, `${server.url}/plain`);
-  await plain.page.waitForSelector('.card');
-  await plain.page.getByText('Torch').first().click();
+  await plain.page.getByText('This is the plain page').waitFor();
+  await plain.page.waitForFunction(() => document.querySelector('li img')?.naturalWidth === 320, null, { timeout: 60000 });
+  await plain.page.getByRole('link', { name: 'Torch' }).first().click();
   await plain.page.waitForFunction(() => document.getElementById('picture').naturalWidth > 0, null, { timeout: 60000 });
   await plain.close();
 });

@@ -91,3 +91,20 @@ test('what is no scene is told in a sentence, and the page stays', async () => {
   assert.match(view.page.url(), /\/(#\/)?$/);
   await view.close();
 });
+
+test('a scene that cannot be read is a card that says why, here and on the plain page', async () => {
+  const folder = join(scratch, 'served');
+  mkdirSync(folder);
+  writeFileSync(join(folder, 'good.xml'), '<world title="Good"><group><models><model file="box_1_2.3d"/></models></group></world>');
+  writeFileSync(join(folder, 'bad.xml'), '<world>\n<group><models>\n<model file="nothing.3d"/></models></group></world>');
+  const own = await startServer({ scenes: folder });
+  const { scenes } = await (await fetch(`${own.url}/v1/scenes`)).json(), { problem } = scenes.find((one) => !one.valid);
+  const view = await openPage(browser, `${own.url}/`);
+  const text = await view.page.locator('.card.broken .description').innerText();
+  assert.ok(text.startsWith('Line 3') && text.includes(problem.message.slice(1, 20)), text);
+  assert.equal(await view.page.locator('.card').count(), 2);
+  await view.page.goto(`${own.url}/plain`);
+  assert.ok((await view.page.locator('li.bad').innerText()).includes(problem.message));
+  await view.close();
+  await own.stop();
+});

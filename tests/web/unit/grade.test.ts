@@ -1,4 +1,5 @@
 import assert from 'node:assert/strict';
+import { File } from 'node:buffer'; // no global before Node.js 20
 import { spawnSync } from 'node:child_process';
 import { test } from 'node:test';
 import { csvOf } from '../../../web/src/grade/grading.ts';

@@ -1,8 +1,10 @@
 import assert from 'node:assert/strict';
+import { File } from 'node:buffer'; // no global before Node.js 20
 import { readFileSync } from 'node:fs';
 import { test } from 'node:test';
 import { curesOf } from '../../../web/derive/cures.ts';
 import { schemaOf } from '../../../web/derive/schema.ts';
+import { faultOf, type SceneFacts } from '../../../web/src/api.ts';
 import { bundleOf, mainScene, stripCommonFolder } from '../../../web/src/scene/bundle.ts';
 import { lapTime } from '../../../web/src/scene/clock.ts';
 
@@ -17,7 +19,7 @@ test('every code of the catalogue has its cure', () => {
 });
 
 test('completion knows the elements, their children, attributes and words', () => {
-  const { elements } = schemaOf(readFileSync('api/scene.xsd', 'utf8'), readFileSync('docs/scene-language.md', 'utf8'));
+  const { elements } = schemaOf(readFileSync('api/schema.json', 'utf8'));
   const of = (name: string) => elements.find((element) => element.name === name);
   assert.ok(of('world')?.top && of('scene')?.top);
   assert.ok(of('group')?.children.includes('transform'));
@@ -39,25 +41,49 @@ test('the scene of a folder, and the paths beside it', () => {
 
 test('bundles: litter is left out, a mesh gets a scene, too much is told', async () => {
   const file = (path: string, size = 1) => ({ path, file: new File([new Uint8Array(size)], path) });
-  const bundle = bundleOf([file('f/s.xml'), file('f/t/x.png'), file('f/.DS_Store'), file('f/__MACOSX/y')]);
+  const bundle = await bundleOf([file('f/s.xml'), file('f/t/x.png'), file('f/.DS_Store'), file('f/__MACOSX/y')]);
   assert.ok('body' in bundle);
   const { body } = bundle.body();
   assert.deepEqual([...(body as FormData)].map(([name, value]) => [name, (value as File).name]), [['scene', 's.xml'], ['file', 't/x.png']]);
-  const mesh = bundleOf([file('hare.ply')]);
+  const mesh = await bundleOf([file('hare.ply')]);
   assert.ok('body' in mesh);
   const scene = (mesh.body().body as FormData).get('scene') as File;
   assert.match(await scene.text(), /<model file="hare.ply"\/>/);
-  const both = bundleOf([file('m/a&b.stl'), file('m/c.3DB'), file('m/notes.txt')]);
+  const both = await bundleOf([file('m/a&b.stl'), file('m/c.3DB'), file('m/notes.txt')]);
   assert.ok('body' in both);
   const together = await ((both.body().body as FormData).get('scene') as File).text();
   assert.match(together, /<title>a&amp;b.stl and 1 more<\/title>/);
   assert.deepEqual(together.match(/<model file="[^"]*"/g), ['<model file="a&amp;b.stl"', '<model file="c.3DB"']);
-  assert.ok('message' in bundleOf([file('x.pdf')]));
-  assert.ok('message' in bundleOf([file('s.xml', 17 * 1024 * 1024)]));
+  assert.ok('message' in await bundleOf([file('x.pdf')]));
+  assert.ok('message' in await bundleOf([file('s.xml', 17 * 1024 * 1024)]));
+});
+
+test('of a whole project only what its scenes need is sent', async () => {
+  const file = (path: string, text = '') => ({ path, file: new File([text], path) });
+  const needed = [
+    file('p/s.xml', '<world><model file="M/hare.OBJ"/><texture file=\'my%20skin.png\'/><model file=bezier_comet_3.3d/></world>'),
+    file('p/m/Hare.obj', 'mtllib hare.mtl'), file('p/m/hare.mtl', 'map_Kd fur.png'), file('p/t/fur.png'), file('p/t/my skin.png'),
+    file('p/comet.patch'),
+  ];
+  const build = Array.from({ length: 400 }, (_, i) => file(`p/build/o${i}.o`, 'object'));
+  const bundle = await bundleOf([...build, ...needed]);
+  assert.ok('body' in bundle);
+  const sent = [...(bundle.body().body as FormData)].map(([, value]) => (value as File).name);
+  assert.deepEqual(sent.sort(), needed.map(({ path }) => path.slice(2)).sort());
 });
 
 test('time runs in laps', () => {
   assert.equal(lapTime(12, 0, 10), 2);
   assert.equal(lapTime(-1, 0, 10), 9);
   assert.equal(lapTime(5, 5, 10), 5);
+});
+
+test('why a scene cannot be rendered is told with its place, or without one', () => {
+  const facts = { id: 'a', valid: false, title: '', description: '', links: { self: '', source: '', image: '', thumbnail: '' } };
+  const error = { code: 'xml.unclosed', severity: 'error' as const, message: 'm', line: 3 }, crash = { code: 'worker.crashed', message: 'c' };
+  const of = (rest: Pick<SceneFacts, 'diagnostics' | 'problem'>) => faultOf({ ...facts, ...rest });
+  assert.equal(of({ diagnostics: [error], problem: { code: 'xml.unclosed', message: 'm' } }), error);
+  assert.deepEqual(of({ diagnostics: [], problem: crash }), { ...crash, severity: 'error' });
+  assert.deepEqual(of({ diagnostics: [error], problem: crash }), { ...crash, severity: 'error' });
+  assert.equal(of({ diagnostics: [error] }), error);
 });

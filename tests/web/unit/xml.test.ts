@@ -35,6 +35,12 @@ test('elements and attributes are found in tidy and in broken text', () => {
   const broken = parseXml('<world> <> stray > <group><model file=x.3d/ ><Model FILE = "y&amp;z.3d"></group> & </world');
   const models = [...walkXml(broken)].filter((one) => one.name.toLowerCase() === 'model');
   assert.deepEqual(models.map((one) => attributeOf(one, ['file'])?.value), ['x.3d/', 'y&z.3d']);
+  // Where a tag holds what is no attribute it still ends, and the next one begins.
+  for (const bad of ['<model file="x" = "y"/>', '<model "x"/>', '<model file="x"< y="1"/>', '<model = file="x"/>']) {
+    const [world] = parseXml(`<?xml version="1.0">\n<world><models>${bad}<model file="z"/></models></WORLD>`);
+    assert.deepEqual(world?.children[0]?.children.map((one) => one.name), ['model', 'model'], bad);
+    assert.equal(attributeOf(world?.children[0]?.children[1] as never, ['file'])?.value, 'z', bad);
+  }
   for (const text of ['<', '<a', '<a b', '<a b=', '<a b="', '</', '</a>', '<!--', '<![CDATA[', '<a b=c/', '']) parseXml(text);
 });
 

@@ -13,9 +13,11 @@ import {
   drawSelection, EditorView, highlightActiveLine, highlightActiveLineGutter, highlightSpecialChars, keymap, lineNumbers,
 } from '@codemirror/view';
 import { tags } from '@lezer/highlight';
-import schema from 'virtual:schema';
+import catalogue from 'document:errors';
+import tables from 'document:schema';
+import { schemaOf } from '../../derive/schema.ts';
 import { sentence, type Finding } from '../api.ts';
-import { cureOf } from '../cures.ts';
+import { cureOf, setCatalogue } from '../cures.ts';
 import { changeBetween, indexOfColumn, wordLength } from './places.ts';
 
 const theme = EditorView.theme({
@@ -45,8 +47,10 @@ const colors = HighlightStyle.define([
   { tag: tags.processingInstruction, color: 'var(--soft)' },
 ]);
 
+setCatalogue(catalogue);
+
 const language = xml({
-  elements: schema.elements.map((element) => ({
+  elements: schemaOf(tables).elements.map((element) => ({
     name: element.name, children: element.children, ...(element.top ? { top: true } : {}),
     attributes: element.attributes.map((attribute, index) => ({
       name: attribute.name, ...(attribute.values ? { values: attribute.values } : {}),

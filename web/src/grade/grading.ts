@@ -8,6 +8,8 @@ export interface Grade {
   most: number;
   passed: boolean;
   refused: boolean;
+  reason?: { code: string; message: string };
+  similarity?: number;
   visible: boolean;
   penalty: number;
   criteria: { measure: string; points: number; most: number; measured?: number; reason: string }[];
@@ -65,7 +67,7 @@ export class Grading {
     form.append('reference', reference.file, reference.fileName);
     if (this.rubric.value) form.append('rubric', this.rubric.value.file, this.rubric.value.name);
     try {
-      const response = await patient(() => request('/v1/grade', { method: 'POST', body: form }));
+      const response = await patient(() => request('v1/grade', { method: 'POST', body: form }));
       this.set(subject, { state: 'done', grade: (await response.json()) as Grade });
     } catch (fault) {
       this.set(subject, { state: 'failed', problem: findingsOf(fault).map((one) => sentence(one)).join(' ') });
@@ -84,10 +86,12 @@ export function csvOf(rows: readonly Row[]): string {
   const points = (value: number | undefined): string => value?.toFixed(2) ?? '';
   const lines = rows.map(({ subject, grade, problem }) => {
     const student = studentOf(subject.name);
-    const feedback = grade ? [...grade.findings.filter((one) => one.points > 0), ...grade.diagnostics.filter((one) => one.severity === 'error')]
-      .map((one) => one.message).join('; ') : (problem ?? '');
+    const feedback = grade ? [...grade.findings.filter((one) => one.points > 0), ...grade.diagnostics.filter((one) => one.severity === 'error'),
+      ...(grade.reason && !grade.diagnostics.length ? [grade.reason] : [])].map((one) => one.message).join('; ') : (problem ?? '');
+    // What is not graded has no mark: an empty cell, not 0.
+    const graded = grade && !grade.refused ? grade : undefined;
     return [
-      cell(student.identifier), cell(student.name), points(grade?.points), points(grade?.most), '', grade ? (grade.passed ? 'yes' : 'no') : '',
+      cell(student.identifier), cell(student.name), points(graded?.points), points(grade?.most), '', graded ? (graded.passed ? 'yes' : 'no') : '',
       cell(subject.name), cell(feedback),
     ].join(',');
   });

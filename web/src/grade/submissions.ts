@@ -8,8 +8,10 @@ export interface Subject {
   fileName: string;
 }
 
-const archive = /\.(zip|tar|tgz|gz)$/i;
-const alone = /\.(xml|zip|tar|tgz|gz|png|jpe?g|webp)$/i;
+const archive = /\.(zip|tar|tgz|gz|7z|rar)$/i;
+// Of a whole project code, build folders and videos stay here.
+const wanted = /\.(xml|3db?|obj|mtl|ply|tri|stl|off|patch|png|jpe?g|webp|bmp|tga|gif|hdr|exr|tiff?|pnm|p[bgp]m|json|toml|zip|tar|tgz|gz|7z|rar)$/i;
+const alone = /\.(xml|zip|tar|tgz|gz|7z|rar|png|jpe?g|webp)$/i;
 const isScene = (path: string): boolean => /\.xml$/i.test(path);
 
 function subjectOf(name: string, files: readonly NamedFile[]): Subject {
@@ -30,7 +32,7 @@ export function studentOf(name: string): { name: string; identifier: string } {
  * among its textures is one with all of them.
  */
 export function subjectsOf(files: readonly NamedFile[]): Subject[] {
-  const kept = files.filter(({ path }) => !isLitter(path));
+  const kept = files.filter(({ path }) => !isLitter(path) && wanted.test(path));
   const paths = stripCommonFolder(kept.map(({ path }) => path));
   const named = kept.map(({ file }, i) => ({ path: paths[i] as string, file }));
   const scenes = named.filter(({ path }) => !path.includes('/') && isScene(path));
@@ -45,7 +47,9 @@ export function subjectsOf(files: readonly NamedFile[]): Subject[] {
   for (const one of named) {
     const name = one.path.split('/')[0] as string;
     if (!one.path.includes('/') && !alone.test(name)) continue; // a rubric, a note
-    groups.set(name, [...(groups.get(name) ?? []), one]);
+    const members = groups.get(name);
+    if (members) members.push(one);
+    else groups.set(name, [one]);
   }
   return [...groups].sort(([a], [b]) => a.localeCompare(b)).map(([name, members]) => subjectOf(name, members));
 }

@@ -25,7 +25,8 @@ export function formOf({ main, files }: Loose, text?: string): FormData {
   return form;
 }
 
-const maxFiles = 256; // the service's bound on parts
+const maxFiles = 4000; // below the bound of the service on parts
+const wholeFiles = 256; // up to here everything is sent: an edited scene may name what this one does not
 const maxBytes = 16 * 1024 * 1024;
 
 // What the generator reads: see generator/registry.cpp.
@@ -34,6 +35,8 @@ const archives: [RegExp, string][] = [
   [/\.zip$/i, 'application/zip'],
   [/\.tar$/i, 'application/x-tar'],
   [/\.(tar\.gz|tgz)$/i, 'application/gzip'],
+  [/\.7z$/i, 'application/x-7z-compressed'],
+  [/\.rar$/i, 'application/vnd.rar'],
 ];
 // What operating systems and tools leave behind in folders.
 const litter = /(^|\/)(\.[^/]*|__MACOSX|Thumbs\.db|desktop\.ini|node_modules)(\/|$)/i;
@@ -75,8 +78,49 @@ ${paths.map((path) => `            <model file="${escapeXml(path)}"/>\n`).join('
 </world>
 `;
 
-export function bundleOf(files: readonly NamedFile[]): Bundle | { message: string } {
-  const kept = files.filter(({ path }) => !isLitter(path));
+// As the server compares names: scene/files/spelling.h.
+const folded = (name: string): string => {
+  let plain = name;
+  try {
+    plain = decodeURIComponent(name);
+  } catch {
+    // a percent sign that is one
+  }
+  return plain.normalize('NFD').toLowerCase();
+};
+const baseName = (path: string): string => path.replace(/^.*[/\\]/, '');
+
+/** The base names that a text may mean: what stands in quotes, and each word. */
+function namesIn(text: string, names: Set<string>): void {
+  for (const word of [...text.split(/[\s"'<>=,;]+/), ...text.split(/["'\r\n]+/)]) {
+    const name = baseName(word.trim().replace(/\/+$/, '')); // the slash of an empty tag
+    if (name === '' || name.length > 1024) continue;
+    names.add(folded(name));
+    // "bezier_comet_10.3d" means comet.patch.
+    for (const part of name.split('_')) names.add(`${folded(part)}.patch`);
+  }
+}
+
+/**
+ * What scenes need of a whole project: its documents, the files that they name, and the material libraries and
+ * pictures of these. Everything where that is little. The server's rule: scene/files/bundle.h.
+ */
+export async function neededFiles(files: readonly NamedFile[]): Promise<NamedFile[]> {
+  const bytes = files.reduce((sum, { file }) => sum + file.size, 0);
+  if (files.length <= wholeFiles && bytes <= maxBytes) return [...files];
+  const isDocument = (one: NamedFile): boolean => /\.xml$/i.test(one.path) && one.file.size <= 1048576;
+  const taken = new Set(files.filter(isDocument)), names = new Set<string>();
+  for (const { file } of taken) namesIn(await file.text(), names);
+  for (let round = 0; round < 3; ++round) { // meshes name libraries, which name pictures
+    const fresh = files.filter((one) => !taken.has(one) && names.has(folded(baseName(one.path))));
+    for (const one of fresh) taken.add(one);
+    for (const { path, file } of fresh) if (/\.(obj|mtl)$/i.test(path)) namesIn(await file.slice(0, 65536).text(), names);
+  }
+  return files.filter((one) => taken.has(one));
+}
+
+export async function bundleOf(files: readonly NamedFile[]): Promise<Bundle | { message: string }> {
+  const kept = await neededFiles(files.filter(({ path }) => !isLitter(path)));
   const only = kept.length === 1 ? kept[0] : undefined;
   const archive = only && archives.find(([ending]) => ending.test(only.path));
   const bytes = kept.reduce((sum, { file }) => sum + file.size, 0);

@@ -49,8 +49,8 @@ export const newSession = (): string => crypto.getRandomValues(new Uint32Array(2
 
 export function pictureUrl(origin: Origin, options: Options): string {
   if (origin.text === null && origin.id !== null)
-    return `/v1/scenes/${origin.id.split('/').map(encodeURIComponent).join('/')}/image?${query(options)}`;
-  return `/v1/render?${query(origin.id === null ? options : { base: origin.id, ...options })}`;
+    return `v1/scenes/${origin.id.split('/').map(encodeURIComponent).join('/')}/image?${query(options)}`;
+  return `v1/render?${query(origin.id === null ? options : { base: origin.id, ...options })}`;
 }
 
 /** The answer, or undefined when a newer frame of this session took its place. */

@@ -1,4 +1,5 @@
 // Materials and lights in the XML, in whichever dialect the document writes them.
+import { spellings } from './language.ts';
 import {
   appendChild, applyEdits, attributeOf, childOf, indentUnit, lineOf, parseXml, setAttribute, walkXml, type Edit, type XmlElement,
 } from './xml.ts';
@@ -20,13 +21,19 @@ export interface Part {
 
 const isLight = (element: XmlElement): boolean => element.name.toLowerCase() === 'light';
 const isModel = (element: XmlElement): boolean => element.name.toLowerCase() === 'model';
-const short: Record<Component, readonly string[]> = {
-  diffuse: ['diff', 'diffuse'], ambient: ['ambt', 'amb', 'ambient'], specular: ['spec', 'specular'], emissive: ['emis', 'emiss', 'emi', 'emissive', 'emission'],
-};
+const prefix: Record<Component, string> = { diffuse: 'diff', ambient: 'ambt', specular: 'spec', emissive: 'emis' };
+/** The attributes of one channel of a colour. */
+const channelNames = (element: XmlElement, component: Component, c: string): readonly string[] =>
+  spellings(isLight(element) && component !== 'emissive' ? 'light' : 'model', prefix[component] + c);
 const words: Record<Component, readonly string[]> = {
-  diffuse: ['diffuse'], ambient: ['ambient'], specular: ['specular'], emissive: ['emission', 'emissive'],
+  diffuse: spellings('model', 'diffuse'), ambient: spellings('model', 'ambient'), specular: spellings('model', 'specular'),
+  emissive: spellings('model', 'emission'),
 };
-const children: Record<Component, readonly string[]> = { ...words, emissive: ['emissive', 'emission'] };
+const children: Record<Component, readonly string[]> = {
+  diffuse: spellings('diffuse'), ambient: spellings('ambient'), specular: spellings('specular'), emissive: spellings('emissive'),
+};
+const shininessNames = spellings('model', 'shininess'), exponentNames = spellings('shininess', 'value');
+const textureNames = spellings('model', 'texture'), fileNames = spellings('texture', 'file');
 const channel = ['R', 'G', 'B'] as const;
 
 export function mannerOf(roots: readonly XmlElement[]): Manner {
@@ -46,7 +53,7 @@ export function mannerOf(roots: readonly XmlElement[]): Manner {
 
 function groupName(element: XmlElement): string {
   for (let one = element.parent; one; one = one.parent) {
-    const name = one.name.toLowerCase() === 'group' ? attributeOf(one, ['name', 'id'])?.value : undefined;
+    const name = one.name.toLowerCase() === 'group' ? attributeOf(one, spellings('group', 'name'))?.value : undefined;
     if (name) return name;
   }
   return '';
@@ -59,7 +66,7 @@ export function partsOf(text: string, roots: readonly XmlElement[]): Part[] {
     if (!isModel(element) && !isLight(element)) continue;
     const kind = isModel(element) ? 'model' : 'light';
     const named = attributeOf(element, ['name', 'id'])?.value;
-    const what = kind === 'model' ? attributeOf(element, ['file', 'src', 'command'])?.value : attributeOf(element, ['type'])?.value ?? 'point';
+    const what = kind === 'model' ? attributeOf(element, [...spellings('model', 'file'), 'command'])?.value : attributeOf(element, ['type'])?.value ?? 'point';
     out.push({
       kind, index: kind === 'model' ? models++ : lights++, label: named ?? what ?? kind, group: groupName(element), line: lineOf(text, element.start),
     });
@@ -92,7 +99,7 @@ export const fromHex = (text: string): Rgb => hex(text) ?? [0, 0, 0];
 function namedColor(roots: readonly XmlElement[], name: string): Rgb | undefined {
   for (const element of walkXml(roots)) {
     if (element.parent?.name.toLowerCase() !== 'colors' || attributeOf(element, ['name'])?.value !== name) continue;
-    return channel.map((c) => numberOf(element, [c], 0)) as unknown as Rgb;
+    return channel.map((c) => numberOf(element, spellings('namedColor', c.toLowerCase()), 0)) as unknown as Rgb;
   }
   return undefined;
 }
@@ -103,7 +110,7 @@ const materialDefaults = (manner: Manner): Record<Component, Rgb> => {
 };
 const lightDefaults: Record<Component, Rgb> = { diffuse: [1, 1, 1], ambient: [0, 0, 0], specular: [1, 1, 1], emissive: [0, 0, 0] };
 
-const colorElement = (model: XmlElement): XmlElement | undefined => childOf(model, 'color', 'colour', 'material');
+const colorElement = (model: XmlElement): XmlElement | undefined => childOf(model, ...spellings('color'));
 
 /** A colour of a model or light; components are 0 to 1. */
 export function colorOf(roots: readonly XmlElement[], element: XmlElement, component: Component): Rgb {
@@ -112,11 +119,11 @@ export function colorOf(roots: readonly XmlElement[], element: XmlElement, compo
   const child = holder && childOf(holder, ...children[component]);
   if (child) {
     const max = numberOf(child, ['max'], 255);
-    return channel.map((c, i) => (numberIn(child, [c]) ?? (defaults[i] as number) * max) / max) as unknown as Rgb;
+    return channel.map((c, i) => (numberIn(child, spellings('diffuse', c)) ?? (defaults[i] as number) * max) / max) as unknown as Rgb;
   }
   const word = attributeOf(element, words[component])?.value;
   if (word) return hex(word) ?? namedColor(roots, word) ?? defaults;
-  const values = channel.map((c) => numberIn(element, short[component].map((name) => name + c)));
+  const values = channel.map((c) => numberIn(element, channelNames(element, component, c)));
   if (values.every((value) => value === undefined)) return defaults;
   const most = Math.max(...values.map((value) => value ?? 0));
   return values.map((value, i) => (value === undefined ? (defaults[i] as number) : most > 1 ? value / 255 : value)) as unknown as Rgb;
@@ -134,16 +141,16 @@ export function setColor(text: string, kind: Part['kind'], index: number, compon
   const child = holder && childOf(holder, ...children[component]);
   if (child) {
     const max = numberOf(child, ['max'], 255);
-    return applyEdits(text, channels(child, (c) => [c], max));
+    return applyEdits(text, channels(child, (c) => spellings('diffuse', c), max));
   }
   const wide = (): string => `<${component} ${channel.map((c, i) => `${c}="${Math.round((color[i] as number) * 255)}"`).join(' ')} />`;
   if (holder) return applyEdits(text, [appendChild(text, holder, wide(), unit)]);
   if (attributeOf(element, words[component])) return applyEdits(text, [setAttribute(element, words[component], toHex(color))]);
-  const present = channel.map((c) => numberIn(element, short[component].map((name) => name + c))).filter((value) => value !== undefined);
+  const present = channel.map((c) => numberIn(element, channelNames(element, component, c))).filter((value) => value !== undefined);
   const manner = mannerOf(roots);
   if (present.length > 0 || manner === 'engine2017' || kind === 'light') {
     const scale = present.some((value) => value > 1) ? 255 : 1;
-    return applyEdits(text, channels(element, (c) => short[component].map((name) => name + c), scale));
+    return applyEdits(text, channels(element, (c) => channelNames(element, component, c), scale));
   }
   if (manner === 'engine2020') return applyEdits(text, [setAttribute(element, words[component], toHex(color))]);
   return applyEdits(text, [appendChild(text, element, `<color> ${wide()} </color>`, unit)]);
@@ -151,17 +158,17 @@ export function setColor(text: string, kind: Part['kind'], index: number, compon
 
 export function shininessOf(element: XmlElement): number {
   const holder = colorElement(element), child = holder && childOf(holder, 'shininess');
-  return child ? numberOf(child, ['value', 'v'], 0) : numberOf(element, ['shininess', 'shine', 'shin'], 0);
+  return child ? numberOf(child, exponentNames, 0) : numberOf(element, shininessNames, 0);
 }
 
 export function setShininess(text: string, index: number, value: number): string {
   const roots = parseXml(text), element = elementOf(roots, 'model', index);
   if (!element) return text;
   const holder = colorElement(element), child = holder && childOf(holder, 'shininess');
-  if (child) return applyEdits(text, [setAttribute(child, ['value', 'v'], trim(value))]);
+  if (child) return applyEdits(text, [setAttribute(child, exponentNames, trim(value))]);
   if (holder) return applyEdits(text, [appendChild(text, holder, `<shininess value="${trim(value)}" />`, indentUnit(text, roots))]);
-  if (mannerOf(roots) !== 'course' || attributeOf(element, ['shininess', 'shine', 'shin']))
-    return applyEdits(text, [setAttribute(element, ['shininess', 'shine', 'shin'], trim(value))]);
+  if (mannerOf(roots) !== 'course' || attributeOf(element, shininessNames))
+    return applyEdits(text, [setAttribute(element, shininessNames, trim(value))]);
   return applyEdits(text, [appendChild(text, element, `<color> <shininess value="${trim(value)}" /> </color>`, indentUnit(text, roots))]);
 }
 
@@ -173,16 +180,16 @@ export function setNumber(text: string, kind: Part['kind'], index: number, names
 
 export const textureOf = (model: XmlElement): string => {
   const child = childOf(model, 'texture');
-  return (child ? attributeOf(child, ['file', 'src', 'path', 'name']) : attributeOf(model, ['texture', 'tex']))?.value ?? '';
+  return (child ? attributeOf(child, fileNames) : attributeOf(model, textureNames))?.value ?? '';
 };
 
 export function setTexture(text: string, index: number, file: string): string {
   const roots = parseXml(text), model = elementOf(roots, 'model', index);
   if (!model) return text;
   const child = childOf(model, 'texture');
-  if (child) return applyEdits(text, [setAttribute(child, ['file', 'src', 'path', 'name'], file)]);
-  if (attributeOf(model, ['texture', 'tex']) || mannerOf(roots) !== 'course')
-    return applyEdits(text, [setAttribute(model, ['texture', 'tex'], file)]);
+  if (child) return applyEdits(text, [setAttribute(child, fileNames, file)]);
+  if (attributeOf(model, textureNames) || mannerOf(roots) !== 'course')
+    return applyEdits(text, [setAttribute(model, textureNames, file)]);
   return applyEdits(text, [appendChild(text, model, `<texture file="${file.replaceAll('"', '&quot;')}" />`, indentUnit(text, roots))]);
 }
 

@@ -2,7 +2,7 @@
 // the view asks the frame loop for pictures.
 import { batch, computed, signal } from '@preact/signals';
 import {
-  findingsOf, getScene, getSource, Problem, validate, type Finding, type ModelPlaces, type Options,
+  faultOf, findingsOf, getScene, getSource, Problem, validate, type Finding, type ModelPlaces, type Options,
   type SceneFacts,
 } from '../api.ts';
 import { FrameLoop, type Shown } from '../frames/loop.ts';
@@ -107,7 +107,8 @@ export class Viewer {
         this.facts.value = facts;
         this.home ??= facts.camera ?? null;
         this.clock.range(facts.animated ?? false, facts.playFrom ?? 0, facts.loopSeconds ?? 60);
-        if (!facts.valid) this.findings.value = facts.diagnostics;
+        const fault = facts.valid ? undefined : faultOf(facts);
+        if (fault) this.findings.value = [fault, ...facts.diagnostics.filter((one) => one !== fault)];
         if (draft || !facts.valid) {
           await this.loadText();
           if (draft) this.restore(draft.text, draft.base);
@@ -232,7 +233,7 @@ export class Viewer {
 
   /** What the full picture is asked with: all but format. */
   pictureOptions(): Options {
-    const out: Options = { ...this.sizeOptions(), ...qualityOptions[this.quality.value], ...this.options.value };
+    const out: Options = { missing: 'placeholder', ...this.sizeOptions(), ...qualityOptions[this.quality.value], ...this.options.value };
     if (this.clock.time.value > 0) out['time'] = Number(this.clock.time.value.toFixed(3));
     return { ...out, ...cameraOptions(this.walk.value, this.orbit.value, this.home) };
   }

@@ -1,5 +1,7 @@
-// The scene's XML as text with places: enough of a parser to find elements and attributes in a
-// document that may be broken, and to change single values without touching anything else.
+// The scene's XML as text with places: the elements and attributes of a document that may be broken,
+// and changes of single values that touch nothing else.
+import { parser } from '@lezer/xml';
+
 export interface XmlAttribute {
   name: string;
   value: string; // entities resolved
@@ -38,109 +40,87 @@ const unescape = (text: string): string =>
 const escape = (text: string): string =>
   text.replaceAll('&', '&amp;').replaceAll('<', '&lt;').replaceAll('"', '&quot;');
 
-const nameAt = /[A-Za-z_:][\w:.-]*/y;
-const blank = /\s/;
+/**
+ * What an attribute may seem to stand in, then everything that looks like one: its name, and its value in double
+ * quotes, in single ones, after a quote that is never closed (it ends with the line), or without quotes.
+ */
+const attributeText =
+  /<!--[\s\S]*?-->|<!\[CDATA\[[\s\S]*?\]\]>|(<[?!][^>]*>)|<[\w:.-]+|([A-Za-z_:][\w:.-]*)\s*=\s*(?:"([^"]*)"|'([^']*)'|["']([^\n]*)|((?:(?!\/>)[^\s>])*))/g;
+const blanks = (text: string): string => text.replace(/\S/g, ' ');
+const tagName = /<(\/\s*)?([A-Za-z_:][\w:.-]*)/y;
+/** The rest of a tag that holds something else. */
+const tagRest = /[^<>]*>?/y;
 
-/** The elements of the text, outermost first. Never throws. */
-export function parseXml(text: string): XmlElement[] {
-  const roots: XmlElement[] = [];
-  let open = null as XmlElement | null;
-  let at = 0;
-  const skipTo = (end: string, from: number): number => {
-    const found = text.indexOf(end, from);
-    return found < 0 ? text.length : found + end.length;
-  };
-  while (at < text.length) {
-    const start = text.indexOf('<', at);
-    if (start < 0) break;
-    if (text.startsWith('<!--', start)) at = skipTo('-->', start + 4);
-    else if (text.startsWith('<![CDATA[', start)) at = skipTo(']]>', start);
-    else if (text[start + 1] === '?' || text[start + 1] === '!') at = skipTo('>', start);
-    else if (text[start + 1] === '/') {
-      at = skipTo('>', start);
-      const name = text.slice(start + 2, at).replace(/>$/, '').trim().toLowerCase();
-      // Closes the innermost element of that name; what is open within it ends here too.
-      let closed = open;
-      while (closed && closed.name.toLowerCase() !== name) closed = closed.parent;
-      if (!closed) continue;
-      for (let one = open; one && one !== closed; one = one.parent) one.closeStart = one.end = start;
-      closed.closeStart = start;
-      closed.end = at;
-      open = closed.parent;
-    } else {
-      const element = readTag(text, start, open);
-      if (!element) {
-        at = start + 1;
-        continue;
-      }
-      (open ? open.children : roots).push(element);
-      if (!element.selfClosing) open = element;
-      at = element.openEnd;
-    }
-  }
-  for (let one = open; one; one = one.parent) one.closeStart = one.end = text.length;
-  return roots;
+/**
+ * Everything that looks like an attribute, and the text for the parser, which refuses what the service
+ * repairs: attributes without closed quotes and declarations are blanks in it.
+ */
+function takeAttributes(text: string): { found: XmlAttribute[]; rest: string } {
+  const found: XmlAttribute[] = [];
+  const rest = text.replace(attributeText, (all: string, ...groups: unknown[]) => {
+    const [declaration, name, double, single, unclosed, bare, start] = groups as [...(string | undefined)[], number] as [string, string, string, string, string, string, number];
+    if (name === undefined) return declaration === undefined ? all : blanks(all);
+    const closed = double ?? single, raw = closed ?? unclosed ?? bare, end = start + all.length;
+    const valueEnd = closed === undefined ? end : end - 1;
+    found.push({ name, value: unescape(raw), start, valueStart: valueEnd - raw.length, valueEnd, quoted: closed !== undefined || unclosed !== undefined, end });
+    return closed === undefined ? blanks(all) : all;
+  });
+  return { found, rest };
 }
 
-function readTag(text: string, start: number, parent: XmlElement | null): XmlElement | null {
-  nameAt.lastIndex = start + 1;
-  const name = nameAt.exec(text)?.[0];
-  if (!name) return null;
-  let at = nameAt.lastIndex, selfClosing = false;
-  const attributes: XmlAttribute[] = [];
-  const skipBlanks = (): void => {
-    while (at < text.length && blank.test(text[at] as string)) at += 1;
+let last: { text: string; roots: readonly XmlElement[] } = { text: '', roots: [] };
+
+/** The elements of the text, outermost first. Never throws. The text read last is not parsed again. */
+export function parseXml(text: string): readonly XmlElement[] {
+  if (text !== last.text) last = { text, roots: parse(text) };
+  return last.roots;
+}
+
+function parse(text: string): XmlElement[] {
+  const { found, rest } = takeAttributes(text);
+  const roots: XmlElement[] = [];
+  let open = null as XmlElement | null, next = 0;
+  const attributesIn = (from: number, to: number): XmlAttribute[] => {
+    while ((found[next]?.start ?? from) < from) next += 1;
+    const first = next;
+    while ((found[next]?.start ?? to) < to) next += 1;
+    return found.slice(first, next);
   };
-  for (;;) {
-    skipBlanks();
-    if (at >= text.length || text[at] === '<') break;
-    if (text[at] === '>') {
-      at += 1;
-      break;
+  const begin = (name: string, start: number, nameEnd: number, tagEnd: number): void => {
+    let openEnd = tagEnd;
+    if (rest[tagEnd - 1] !== '>') {
+      tagRest.lastIndex = tagEnd;
+      openEnd += tagRest.exec(rest)?.[0].length ?? 0;
     }
-    if (text[at] === '/') {
-      at += 1;
-      skipBlanks();
-      if (text[at] === '>') {
-        selfClosing = true;
-        at += 1;
-        break;
-      }
-      continue;
-    }
-    nameAt.lastIndex = at;
-    const key = nameAt.exec(text)?.[0];
-    if (!key) {
-      at += 1;
-      continue;
-    }
-    const nameStart = at;
-    at += key.length;
-    const afterName = at;
-    skipBlanks();
-    if (text[at] !== '=') {
-      at = afterName;
-      continue; // a name without a value
-    }
-    at += 1;
-    skipBlanks();
-    const quote = text[at];
-    const quoted = quote === '"' || quote === "'";
-    let valueStart = at, valueEnd: number;
-    if (quoted) {
-      valueStart += 1;
-      const close = text.indexOf(quote as string, valueStart);
-      // A quote that is never closed ends with the line.
-      const line = text.indexOf('\n', valueStart);
-      valueEnd = close >= 0 ? close : line >= 0 ? line : text.length;
-      at = close >= 0 ? close + 1 : valueEnd;
-    } else {
-      while (at < text.length && !/[\s>]/.test(text[at] as string) && !(text[at] === '/' && text[at + 1] === '>')) at += 1;
-      valueEnd = at;
-    }
-    attributes.push({ name: key, value: unescape(text.slice(valueStart, valueEnd)), start: nameStart, valueStart, valueEnd, quoted, end: at });
-  }
-  return { name, start, openEnd: at, selfClosing, attributes, children: [], parent, closeStart: at, end: at };
+    const selfClosing = /\/\s*>$/.test(rest.slice(nameEnd, openEnd));
+    const element: XmlElement = {
+      name, start, openEnd, selfClosing, attributes: attributesIn(nameEnd, openEnd), children: [], parent: open, closeStart: openEnd, end: openEnd,
+    };
+    (open ? open.children : roots).push(element);
+    if (!selfClosing) open = element;
+  };
+  /** Closes the innermost element of that name, in any case; what is open within it ends here too. */
+  const close = (name: string, start: number, end: number): void => {
+    let closed = open;
+    while (closed && closed.name.toLowerCase() !== name.toLowerCase()) closed = closed.parent;
+    if (!closed) return;
+    for (let one = open; one && one !== closed; one = one.parent) one.closeStart = one.end = start;
+    closed.closeStart = start;
+    closed.end = end;
+    open = closed.parent;
+  };
+  parser.parse(rest).iterate({
+    enter({ name: kind, from, to }) {
+      if (kind === 'Document' || kind === 'Element') return true;
+      tagName.lastIndex = from;
+      const [, slash, name = ''] = (to > from && kind.endsWith('Tag') && tagName.exec(rest)) || [];
+      if (name && slash) close(name, from, to);
+      else if (name) begin(name, from, tagName.lastIndex, to);
+      return false;
+    },
+  });
+  for (let one = open; one; one = one.parent) one.closeStart = one.end = text.length;
+  return roots;
 }
 
 /** All elements in document order. */

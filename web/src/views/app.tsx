@@ -54,7 +54,7 @@ function Head() {
         {link('grade', '#/grade', 'Grade')}
       </nav>
       <span class="space" />
-      <a class="quiet" href="/openapi.yaml">API</a>
+      <a class="quiet" href="openapi.yaml">API</a>
       <Tool icon={dark.value ? 'sun' : 'moon'} label={dark.value ? 'Light theme' : 'Dark theme'} onClick={toggleTheme} />
     </header>
   );

@@ -1,7 +1,7 @@
 // The scenes one can open.
 import { signal } from '@preact/signals';
 import { useEffect, useRef, useState } from 'preact/hooks';
-import { findingsOf, listScenes, sentence, type SceneFacts } from '../api.ts';
+import { faultOf, findingsOf, listScenes, sentence, type SceneFacts } from '../api.ts';
 import { scenePlace } from '../router.ts';
 import { thumbnail } from '../thumbnails.ts';
 import { pickFiles } from '../upload.ts';
@@ -72,7 +72,7 @@ function facts(scene: SceneFacts): string[] {
 }
 
 function Card({ scene }: { scene: SceneFacts }) {
-  const fault = scene.diagnostics.find((one) => one.severity === 'error');
+  const fault = scene.valid ? undefined : faultOf(scene);
   return (
     <li class={scene.valid ? 'card' : 'card broken'}>
       <a href={scenePlace(scene.id)}>

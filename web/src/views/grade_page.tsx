@@ -1,17 +1,16 @@
 // Marks submissions against a reference: points, what differs in words, and where it is seen.
 import { signal } from '@preact/signals';
-import { useEffect } from 'preact/hooks';
-import { csvOf, Grading, type Grade, type Row } from '../grade/grading.ts';
+import { useEffect, useRef } from 'preact/hooks';
+import { gradesView, type Graded, type GradesView } from '../../../grade/report/view.js';
+import { csvOf, Grading, type Row } from '../grade/grading.ts';
 import { studentOf, subjectsOf } from '../grade/submissions.ts';
 import type { NamedFile } from '../scene/bundle.ts';
 import { chooseFiles, filesOf } from '../files.ts';
 import { Icon } from './icons.tsx';
 import { saveBlob } from './save.ts';
-import { Findings, say } from './ui.tsx';
-import { sentence } from '../api.ts';
+import { say } from './ui.tsx';
 
 const grading = new Grading();
-const open = signal<string | null>(null);
 const over = signal<'reference' | 'submissions' | null>(null);
 
 function takeReference(files: readonly NamedFile[]): void {
@@ -58,74 +57,36 @@ function Drop({ kind, title, text, take, children }: {
   );
 }
 
-const points = (value: number): string => String(Number(value.toFixed(1)));
+const results = new WeakMap<Row, Graded>();
 
-/** What was measured: measures that the rubric leaves out are not there. */
-function shares({ difference, flip, ssim }: Grade['views'][number]): string {
-  return [
-    `${(100 * difference).toFixed(1)} % differs`, flip && `FLIP ${flip.mean.toFixed(3)}`, ssim !== undefined && `SSIM ${ssim.toFixed(3)}`,
-  ].filter(Boolean).join(', ');
+/** A row as the view of a report takes it; the same one as long as the row is. */
+function gradedOf(row: Row): Graded {
+  const known = results.get(row);
+  if (known) return known;
+  const { subject, state, grade, problem } = row, student = studentOf(subject.name);
+  const made: Graded = {
+    id: subject.name, name: student.identifier ? student.name : '', identifier: student.identifier,
+    points: grade?.points ?? 0, most: grade?.most ?? 0, passed: grade?.passed ?? false, tasks: [],
+    ...(state === 'waiting' ? { state: 'waiting' } : state === 'grading' ? { state: 'grading…' } : {}),
+  };
+  if (grade) made.tasks.push({ grade, references: () => [], pictures: () => grade.views.flatMap((view) => [view.picture ?? '', view.heat ?? '']) });
+  else if (problem !== undefined) made.tasks.push({ failure: { code: '', message: problem } });
+  results.set(row, made);
+  return made;
 }
 
-function Details({ grade }: { grade: Grade }) {
+/** The grades as the report of `farol grade` shows them. */
+function Grades({ rows }: { rows: readonly Row[] }) {
+  const head = useRef<HTMLDivElement>(null), body = useRef<HTMLDivElement>(null), view = useRef<GradesView | null>(null);
+  useEffect(() => {
+    view.current ??= gradesView({ head: head.current as HTMLElement, body: body.current as HTMLElement, keys: body.current as HTMLElement });
+    view.current.show(rows.map(gradedOf));
+  }, [rows]);
   return (
-    <div class="details">
-      {grade.findings.length > 0 && (
-        <ol class="grade-findings">
-          {grade.findings.map((finding, i) => (
-            <li key={i}>
-              <p><b>{finding.message}</b>{finding.points > 0 && <span class="cost">−{points(finding.points)}</span>}</p>
-              {finding.line && <p class="place">{finding.file ? `${finding.file}, ` : ''}line {finding.line}</p>}
-              {finding.excerpt && <pre tabIndex={0}>{finding.excerpt}</pre>}
-            </li>
-          ))}
-        </ol>
-      )}
-      {grade.findings.length === 0 && <p class="note">Nothing was found that differs.</p>}
-      <div class="views">
-        {grade.views.filter((view) => view.picture ?? view.heat).map((view) => (
-          <figure key={`${view.name}${view.time}`}>
-            <div>
-              {view.picture && <img src={view.picture} alt={`The submission, ${view.name}`} loading="lazy" />}
-              {view.heat && <img src={view.heat} alt={`Where it differs, ${view.name}`} loading="lazy" />}
-            </div>
-            <figcaption>{view.name}{view.time ? `, ${view.time} s` : ''}: {shares(view)}</figcaption>
-          </figure>
-        ))}
-      </div>
-      <table class="criteria">
-        <thead><tr><th scope="col">Criterion</th><th scope="col">Points</th><th scope="col">Why</th></tr></thead>
-        <tbody>
-          {grade.criteria.map((one) => (
-            <tr key={one.measure}><th scope="row">{one.measure}</th><td>{points(one.points)} / {points(one.most)}</td><td>{one.reason}</td></tr>
-          ))}
-        </tbody>
-      </table>
-      <Findings findings={grade.diagnostics} />
+    <div class="report">
+      <div class="grades-head" ref={head} />
+      <div class="grades" ref={body} />
     </div>
-  );
-}
-
-function RowView({ row }: { row: Row }) {
-  const { subject, state, grade, problem } = row, on = open.value === subject.name;
-  const student = studentOf(subject.name), fault = grade?.diagnostics.find((one) => one.severity === 'error');
-  const lost = grade?.criteria.filter((one) => one.points < one.most).sort((a, b) => b.most - b.points - a.most + a.points)[0];
-  const first = grade?.refused ? `It could not be read. ${fault ? sentence(fault) : ''}`
-    : (grade?.findings.find((one) => one.points > 0)?.message ?? lost?.reason ?? (grade ? 'As the reference.' : ''));
-  return (
-    <li class={`row ${grade ? (grade.passed ? 'passed' : 'missed') : state}`}>
-      <button type="button" aria-expanded={on} disabled={!grade} onClick={() => (open.value = on ? null : subject.name)}>
-        <b>{student.name}{student.identifier && <span class="who">{student.identifier}</span>}</b>
-        <span class="what">{state === 'grading' ? 'Grading…' : state === 'failed' ? problem : state === 'waiting' ? 'Waiting' : first}</span>
-        {grade && (
-          <span class="score">
-            <meter min={0} max={grade.most} value={grade.points} aria-label={`Points of ${student.name}`} />
-            <strong>{points(grade.points)}</strong> of {points(grade.most)}
-          </span>
-        )}
-      </button>
-      {on && grade && <Details grade={grade} />}
-    </li>
   );
 }
 
@@ -162,7 +123,7 @@ export function GradePage() {
         {rows.value.length > 0 && !running.value && <button type="button" class="link" onClick={() => grading.clear()}>Remove all submissions</button>}
         <span class="note" role="status">{done > 0 && !running.value ? `${done} graded.` : ''}</span>
       </div>
-      <ol class="rows" aria-label="Grades">{rows.value.map((row) => <RowView key={row.subject.name} row={row} />)}</ol>
+      {rows.value.length > 0 && <Grades rows={rows.value} />}
     </main>
   );
 }

@@ -7,6 +7,7 @@ import {
   toHex, type Component, type Part, type Rgb,
 } from '../scene/materials.ts';
 import type { Viewer } from '../scene/viewer.ts';
+import { spellings } from '../scene/language.ts';
 import { attributeOf, parseXml, type XmlElement } from '../scene/xml.ts';
 import { Section } from './ui.tsx';
 
@@ -16,7 +17,7 @@ const maxListed = 200;
 
 interface Edits {
   viewer: Viewer;
-  roots: XmlElement[];
+  roots: readonly XmlElement[];
   element: XmlElement;
   kind: Part['kind'];
   index: number;
@@ -90,21 +91,21 @@ function Light({ edits }: { edits: Edits }) {
       onInput={(value) => viewer.edit(setNumber(viewer.text.peek() ?? '', 'light', index, attributes, value), 'dragging')} />
   );
   const axes = ['X', 'Y', 'Z'] as const;
-  const vector = attributeOf(element, ['dirX', 'dirY', 'dirZ', 'spotDirX', 'directionX']) || !directional ? 'dir' : 'pos';
+  const vector = attributeOf(element, axes.flatMap((axis) => spellings('light', `dir${axis}`))) || !directional ? 'dir' : 'pos';
   return (
     <>
       {angles ? [slider('Alpha', ['alpha'], 0, -180, 180, 1), slider('Beta', ['beta'], 0, -90, 90, 1)] : (
         <>
-          {!directional && axes.map((axis) => slider(`Place ${axis}`, [`pos${axis}`, axis, `position${axis}`], 0, -reach, reach, reach / 200))}
-          {(directional || spot) && axes.map((axis) => slider(`Direction ${axis}`, [`${vector}${axis}`, `spotDir${axis}`, `direction${axis}`], 0, -1, 1, 0.01))}
+          {!directional && axes.map((axis) => slider(`Place ${axis}`, spellings('light', `pos${axis}`), 0, -reach, reach, reach / 200))}
+          {(directional || spot) && axes.map((axis) => slider(`Direction ${axis}`, spellings('light', `${vector}${axis}`), 0, -1, 1, 0.01))}
         </>
       )}
-      {spot && slider('Cutoff', ['cutoff', 'cut', 'cutoffAngle', 'spotCutoff'], 180, 0, 90, 0.5)}
-      {spot && slider('Exponent', ['exponent', 'exp', 'cutoffExponent', 'spotExponent'], 0, 0, 128, 1)}
+      {spot && slider('Cutoff', spellings('light', 'cutoff'), 180, 0, 90, 0.5)}
+      {spot && slider('Exponent', spellings('light', 'exponent'), 0, 0, 128, 1)}
       {!directional && [
-        slider('Constant', ['constant', 'attenuationConstant', 'attConstant', 'cons'], 1, 0, 4, 0.01),
-        slider('Linear', ['linear', 'attenuationLinear', 'attLinear', 'lin'], 0, 0, 1, 0.005),
-        slider('Quadratic', ['quadratic', 'attenuationQuadratic', 'attenuation', 'attQuadratic', 'quad'], 0, 0, 1, 0.005),
+        slider('Constant', spellings('light', 'constant'), 1, 0, 4, 0.01),
+        slider('Linear', spellings('light', 'linear'), 0, 0, 1, 0.005),
+        slider('Quadratic', spellings('light', 'quadratic'), 0, 0, 1, 0.005),
       ]}
       {(['diffuse', 'ambient', 'specular'] as const).map((component) => <ColorRow key={component} edits={edits} component={component} />)}
     </>

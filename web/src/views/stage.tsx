@@ -1,24 +1,14 @@
 // The picture, and what lies over it.
 import { useEffect, useRef } from 'preact/hooks';
 import { listen, type Actions } from '../input.ts';
-import { cameraLightOf } from '../scene/camera_light.ts';
 import type { Viewer } from '../scene/viewer.ts';
 import { HudView } from './hud.tsx';
+import { lazyView } from './lazy.tsx';
 
 const help =
   'Drag or arrow keys orbit, right drag or two fingers pan, wheel or plus and minus zoom, W A S D move the focus, R resets, Space plays';
 
-function LightNote({ viewer }: { viewer: Viewer }) {
-  useEffect(() => {
-    viewer.loadText().catch((fault: unknown) => viewer.report(fault));
-  }, [viewer]);
-  const light = cameraLightOf(viewer.text.value ?? '');
-  return (
-    <p class="light-note" role="status">
-      {light ? `Camera light: alpha ${light.alpha}°, beta ${light.beta}°` : 'No camera light yet: A Z, X C add one'}
-    </p>
-  );
-}
+const LightNote = lazyView(() => import('./light_note.tsx').then((module) => module.LightNote), 'the light mode');
 
 export const focusStage = (): void => document.querySelector<HTMLElement>('.stage')?.focus({ preventScroll: true });
 

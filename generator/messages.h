@@ -1,0 +1,39 @@
+#pragma once
+
+#include "core/message.h"
+
+namespace farol::generator {
+
+inline constexpr MessageRow kGeneratorMessages[] = {
+    {"mesh.assumed",
+     "the faces of the PLY file have no \"property\" line; read as \"property list uchar int "
+     "vertex_indices\""},
+    {"mesh.count-wrong/soup",
+     "the count in the first line, {count}, is not that of the vertices, triangles or numbers that "
+     "follow; all {vertices} vertices are drawn",
+     {"22", "6"}},
+    {"mesh.count-wrong/stl",
+     "the header of the STL file has the count {count}, but the file holds {held} triangles; all "
+     "{held} are drawn",
+     {"12", "11"}},
+    {"mesh.left-out", "not read of \"{file}\": {list}", {"box.obj", "2 lines, 1 points"}},
+    {"mesh.material/file",
+     "the material file \"{file}\" of \"{mesh}\" is missing; its materials are not drawn",
+     {"box.mtl", "box.obj"}},
+    {"mesh.material/texture",
+     "the texture \"{file}\" of the material \"{material}\" is missing; the material is drawn "
+     "without it",
+     {"wood.png", "table"}},
+    {"mesh.replaced",
+     "cannot read the mesh \"{file}\": {problem}; drawn as \"{shape}\", which its name or comment "
+     "says",
+     {"plane_2_3.3d", "\"PLANE\" is not a number", "plane 2 3"}},
+};
+
+/// A message of this floor: message<"mesh.left-out">("file"_arg = name, "list"_arg = list).
+template <FixedString kId, FixedString... kNames>
+Message message(const NamedArgument<kNames>&... arguments) {
+    return makeMessage<kId, kGeneratorMessages>(arguments...);
+}
+
+}  // namespace farol::generator

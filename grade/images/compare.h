@@ -1,0 +1,58 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "core/bounded_json.h"
+#include "grade/images/mask.h"
+#include "image/image.h"
+
+namespace farol::grade {
+
+/// Levels (of 255) whose share of pixels is counted: none, rounding, drivers, filters.
+inline constexpr std::array<int, 4> kLevels{0, 2, 6, 24};
+
+/// How two pictures of one size differ, in levels 0..255 of premultiplied RGBA.
+/// A pixel's difference is the largest over its channels; its tolerant difference is the least
+/// over the 3x3 pixels around the same place of the other picture, the larger of both directions:
+/// an edge that moved by a pixel costs nothing, a thing that only one picture shows costs all.
+struct Comparison {
+    int width = 0, height = 0;
+    double meanLevels = 0.0, tolerantMeanLevels = 0.0;
+    int maxLevels = 0, tolerantMaxLevels = 0;
+    double psnrDb = 0.0;  ///< over red, green and blue; infinity where they are equal
+    /// Share of pixels, 0..1, whose difference is at most kLevels[i].
+    std::array<double, kLevels.size()> within{}, tolerantWithin{};
+    double counted = 0.0;  ///< share of the pixels that the mask lets count, 0..1
+    Summary flip{};        ///< see grade/images/flip.h; the first picture is the reference
+    std::optional<double>
+        ssim{};  ///< mean, see grade/images/ssim.h; nothing for pictures below 11x11 px
+};
+
+/// Compares the pixels that the mask lets count. Throws Error image.size when the sizes differ or
+/// are zero, image.mask when no pixel counts. The second value shows where: the first picture
+/// faded to a quarter, the tolerant difference in red, eight times as strong.
+std::pair<Comparison, image::Image> compare(const image::Image& first, const image::Image& second,
+                                            const Mask& mask = {});
+
+/// As JSON, an object; PSNR is null where the pictures are equal, SSIM where they are too small.
+std::string toJson(const Comparison& comparison);
+/// Bounds of that document where it is read again.
+inline constexpr JsonLimits kComparisonJson{.bytes = 65'536};
+
+/// The rectangle that "WxH+X+Y" says, px. Throws Error option.range, which names `field`.
+Rectangle readRectangle(const std::string& text, const std::string& field);
+
+/// The part that `wanted` names: "" all of it, "auto" the client area of a screenshot, else a
+/// rectangle, unless the picture has that size already. Throws as readRectangle and crop do.
+image::Image cut(const image::Image& image, const std::string& wanted);
+
+/// That part of the picture. Throws Error image.crop when it is empty or reaches beyond it.
+image::Image crop(const image::Image& image, const Rectangle& part);
+
+/// A plane of 0..1 as a picture: black, violet, red, orange, yellow, white.
+image::Image heatMap(const Plane& plane);
+
+}  // namespace farol::grade

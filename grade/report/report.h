@@ -1,0 +1,63 @@
+#pragma once
+
+#include <functional>
+#include <ostream>
+#include <string>
+#include <variant>
+#include <vector>
+
+/// A class's results as files: a page to read, a table for the grade book, JUnit for CI services,
+/// JSON for everything else. They hold what the submissions hold and nothing of the run: the same
+/// class gives the same bytes.
+namespace farol::grade {
+
+/// A grade as reports hold it.
+struct TaskGrade {
+    std::string json;                   ///< toJson(Grade)
+    std::vector<std::string> pictures;  ///< JPEG, two a view: the submission and the difference
+};
+
+/// Why a task was not graded.
+struct TaskFailure {
+    std::string code;     ///< "grade.no-scene"
+    std::string message;  ///< one sentence
+};
+
+/// One task of one submission.
+struct TaskResult {
+    std::string task;  ///< its name; empty where there is one task only
+    std::variant<TaskFailure, TaskGrade> result;
+
+    const TaskGrade* grade() const { return std::get_if<TaskGrade>(&result); }
+    const TaskFailure* failure() const { return std::get_if<TaskFailure>(&result); }
+};
+
+struct SubmissionResult {
+    std::string id;      ///< the folder's or file's name, unique
+    std::string name;    ///< the student's, where the name of the folder tells it
+    std::string number;  ///< Moodle's identifier without "Participant", else empty
+    double points = 0, most = 0;
+    bool passed = false;
+    std::vector<TaskResult> tasks;
+    bool graded = true;  ///< false: no task has a mark, and neither has the submission
+};
+
+/// The class: results are asked for one after the other, so that all need not be in memory.
+struct ClassResult {
+    std::string title;  ///< of the rubric
+    std::size_t count = 0;
+    std::function<SubmissionResult(std::size_t)> at;
+    std::vector<std::string> tasks;
+    /// JPEG of the reference, by task and view.
+    std::vector<std::vector<std::string>> references;
+    std::string rubric;  ///< JSON
+};
+
+void writeHtml(std::ostream& out, const ClassResult& all);
+/// Moodle's offline grading worksheet and some columns more. A field that a spreadsheet would take
+/// for a formula starts with an apostrophe.
+void writeCsv(std::ostream& out, const ClassResult& all);
+void writeJunit(std::ostream& out, const ClassResult& all);
+void writeJson(std::ostream& out, const ClassResult& all);
+
+}  // namespace farol::grade

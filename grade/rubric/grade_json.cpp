@@ -1,0 +1,118 @@
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "grade/rubric/grader.h"
+
+namespace farol::grade {
+namespace {
+
+using nlohmann::ordered_json;
+
+double twoDigits(double points) { return std::round(points * 100.0) / 100.0; }
+
+/// What is measured, to digits that no machine's arithmetic changes.
+double sixDigits(double measured) { return std::round(measured * 1e6) / 1e6; }
+
+/// A number, or an object of several.
+ordered_json columnsOf(const ImageMetric& metric, const Measurement& measured) {
+    if (metric.columns.size() == 1) return sixDigits(measured.columns.front());
+    ordered_json out;
+    for (std::size_t i = 0; i < metric.columns.size(); ++i)
+        out[std::string(metric.columns[i].key)] = sixDigits(measured.columns[i]);
+    return out;
+}
+
+ordered_json placeOf(const Location& where) {
+    ordered_json out = ordered_json::object();  // a finding need not have a place
+    if (!where.file.empty()) out["file"] = where.file;
+    if (where.line > 0) out["line"] = where.line;
+    if (where.column > 0) out["column"] = where.column;
+    return out;
+}
+
+ordered_json causesOf(const Grade& grade) {
+    ordered_json out = ordered_json::array();
+    for (const GradedCause& one : grade.causes) {
+        ordered_json entry{
+            {"code", one.code},       {"criterion", kTopicWords[kindOf(one.code).topic]},
+            {"message", one.message}, {"points", twoDigits(one.points)},
+            {"seen", one.isSeen},     {"spoils", sixDigits(one.spoiled)}};
+        entry.update(placeOf(one.places.front().where));
+        if (!one.places.front().excerpt.empty()) entry["excerpt"] = one.places.front().excerpt;
+        entry["places"] = ordered_json::array();
+        for (const CausePlace& place : one.places) {
+            ordered_json where{{"who", place.who}};
+            where.update(placeOf(place.where));
+            if (&place != &one.places.front() && !place.excerpt.empty())
+                where["excerpt"] = place.excerpt;
+            entry["places"].push_back(std::move(where));
+        }
+        out.push_back(std::move(entry));
+    }
+    return out;
+}
+
+ordered_json viewsOf(const Grade& grade) {
+    // What the rubric leaves out is not shown: a 0 would say that nothing differs.
+    std::set<const MetricSpec*> judged;
+    for (const CriterionGrade& one : grade.criteria) judged.insert(one.metric);
+    ordered_json out = ordered_json::array();
+    for (const ViewGrade& one : grade.views) {
+        ordered_json view{
+            {"name", one.name}, {"time", one.timeS}, {"width", one.width}, {"height", one.height}};
+        for (const MetricSpec& metric : metrics()) {
+            const auto found = one.measured.find(&metric);
+            if (found == one.measured.end()) continue;
+            if (&metric == &mainMetric() || judged.count(&metric) != 0)
+                view[std::string(metric.name)] = columnsOf(*metric.image(), found->second);
+        }
+        out.push_back(std::move(view));
+    }
+    return out;
+}
+
+}  // namespace
+
+std::string toJson(const Grade& grade) {
+    ordered_json out{
+        {"state", grade.notGraded ? "not graded" : "graded"},
+        {"points", grade.points},
+        {"most", grade.most},
+        {"passed", grade.passed},
+        {"refused", grade.notGraded.has_value()},
+        {"visible", grade.visible},
+        {"present", sixDigits(grade.present)},
+        {"penalty", grade.penalty},
+        {"unexplained",
+         {{"points", grade.unexplained}, {"share", sixDigits(grade.unexplainedShare)}}}};
+    if (grade.notGraded)
+        out["reason"] = {{"code", grade.notGraded->code}, {"message", grade.notGraded->reason}};
+    if (grade.similarity) out["similarity"] = sixDigits(*grade.similarity);
+    out["criteria"] = ordered_json::array();
+    for (const CriterionGrade& one : grade.criteria) {
+        ordered_json entry{{"measure", one.metric->name},
+                           {"points", twoDigits(one.points)},
+                           {"most", twoDigits(one.most)}};
+        if (one.metric->image() != nullptr) entry["measured"] = sixDigits(one.measured);
+        entry["reason"] = one.reason;
+        out["criteria"].push_back(std::move(entry));
+    }
+    out["findings"] = causesOf(grade);
+    out["diagnostics"] = ordered_json::array();
+    for (std::size_t i = 0; i < grade.diagnostics.size(); ++i) {
+        const Diagnostic& one = grade.diagnostics[i];
+        // Notes of the reader about right scenes are left out; those of the grader are not.
+        if (one.severity == Severity::info && !one.code.starts_with("grade.")) continue;
+        ordered_json entry{{"code", one.code}, {"severity", kSeverityWords[one.severity]}};
+        entry.update(placeOf(one.where));
+        entry["message"] = one.message;
+        if (i < grade.excerpts.size() && !grade.excerpts[i].empty())
+            entry["excerpt"] = grade.excerpts[i];
+        out["diagnostics"].push_back(std::move(entry));
+    }
+    out["views"] = viewsOf(grade);
+    return dumpJson(out);
+}
+
+}  // namespace farol::grade

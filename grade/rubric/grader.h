@@ -1,0 +1,109 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/bounded_json.h"
+#include "grade/rubric/rubric.h"
+#include "grade/rubric/severity.h"
+#include "grade/rubric/subject.h"
+#include "render/renderer.h"
+
+namespace farol::grade {
+
+/// One criterion's share in a grade.
+struct CriterionGrade {
+    const MetricSpec* metric;  ///< of metrics()
+    double points = 0, most = 0;
+    double measured = 0;  ///< of image metrics: the loss 0 (alike) to 1, mean over the views
+    std::string reason;   ///< the points explained in one sentence
+};
+
+/// A place of the document that a cause stands at.
+struct CausePlace {
+    std::string who;      ///< "group \"door\""
+    Location where;       ///< line 0 where the submission lacks something
+    std::string excerpt;  ///< the lines of the document there
+};
+
+/// A mistake, and what it costs: nothing where nobody can see it.
+struct GradedCause {
+    std::string code;  ///< of kinds()
+    std::string message;
+    std::vector<CausePlace> places;
+    double points = 0;   ///< that it costs
+    double spoiled = 0;  ///< share of the weighted work that it changes, 0..1
+    bool isSeen = true;
+};
+
+/// One view of both, at one time.
+struct ViewGrade {
+    std::string name;
+    double timeS = 0;
+    int width = 0, height = 0;
+    std::map<const MetricSpec*, Measurement> measured;  ///< of those that were computed
+    std::optional<std::string> picture;  ///< JPEG of the submission, unless it is the reference's
+    std::optional<std::string> heat;     ///< JPEG of the difference, where there is one
+};
+
+/// Wall time of the stages, ms: reports leave it out, so that they stay the same.
+struct GradeTimes {
+    double readMs = 0, drawMs = 0, compareMs = 0;
+};
+
+/// Why a submission has no mark.
+struct NotGraded {
+    std::string code;    ///< "grade.image", "xml.empty"
+    std::string reason;  ///< one sentence
+};
+
+struct Grade {
+    std::optional<NotGraded> notGraded;  ///< then there are no points
+    double points = 0, most = 0;
+    bool passed = false;
+    bool visible = false;    ///< some picture differs by more than rounding
+    double present = 1;      ///< share of the reference's work that is there, 0..1
+    double penalty = 0;      ///< points, for diagnostics and for what had to be repaired to read it
+    double unexplained = 0;  ///< points, for what no cause explains
+    double unexplainedShare = 0;       ///< share of the weighted work
+    std::optional<double> similarity;  ///< of a picture that was handed in for a scene, 0..1
+    std::vector<CriterionGrade> criteria;
+    std::vector<GradedCause> causes;
+    Diagnostics diagnostics;
+    std::vector<std::string> excerpts;  ///< the lines at each diagnostic's place, or ""
+    std::vector<ViewGrade> views;
+    GradeTimes times;
+};
+
+/// Grades submissions with one renderer. References are kept: the same one costs once.
+class Grader {
+  public:
+    /// `renderer` outlives the grader.
+    explicit Grader(render::Renderer& renderer);
+    ~Grader();
+
+    /// Throws Error when the reference is at fault; a submission that cannot be read is not graded.
+    /// The same arguments give the same grade, whatever was graded before.
+    Grade grade(const Subject& reference, const Subject& submission, const Rubric& rubric);
+
+    /// What each view shows of the reference, JPEG, in the order of Grade::views. Throws Error.
+    std::vector<std::string> picturesOf(const Subject& reference, const Rubric& rubric);
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+/// The grade as JSON (docs/grading.md), without the pictures.
+std::string toJson(const Grade& grade);
+/// Bounds of that document where it is read again.
+inline constexpr JsonLimits kGradeJson{.bytes = std::size_t{16} << 20U,
+                                       .depth = 8,
+                                       .keys = 1'000,
+                                       .values = 400'000,
+                                       .stringBytes = 65'536};
+
+}  // namespace farol::grade

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <memory>
+#include <set>
+#include <string>
+
+#include "scene/files/assets.h"
+#include "scene/scene.h"
+
+namespace farol::grade {
+
+/// A submission's files, and behind them those that were handed out with the task: students leave
+/// out the pictures and models that everybody has. A file of the submission hides the reference's
+/// of the same name, in whatever folder either is. Documents and .3d meshes are the student's to
+/// make: they are never lent.
+class LentAssets final : public scene::Assets {
+  public:
+    LentAssets(std::shared_ptr<const scene::Assets> own,
+               std::shared_ptr<const scene::Assets> handedOut);
+
+    std::vector<std::string> list() const override;
+    bool has(const std::string& path) const override;
+    std::optional<std::string> read(const std::string& path) const override;
+    std::optional<std::uint64_t> size(const std::string& path) const override;
+    void prefetch(const std::vector<std::string>& paths) const override;
+    std::string version(const std::string& path) const override;
+
+    /// An info `grade.lent` for each lent file that the scene, which was resolved against these
+    /// files, takes; by path.
+    Diagnostics notes(const scene::Scene& scene) const;
+
+  private:
+    const scene::Assets& holderOf(const std::string& path) const;
+
+    std::shared_ptr<const scene::Assets> own_, handedOut_;
+    std::set<std::string> lent_;  ///< paths of handedOut_
+};
+
+}  // namespace farol::grade

@@ -1,0 +1,332 @@
+#include "grade/rubric/score.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "core/text.h"
+
+namespace farol::grade {
+namespace {
+
+constexpr std::size_t kTopics = static_cast<std::size_t>(Topic::animation) + 1;
+using ByTopic = std::array<double, kTopics>;
+
+double rounded(double points) { return std::round(points * 100.0) / 100.0; }
+
+double lossIn(const ViewGrade& view, const MetricSpec& metric) {
+    return view.measured.at(&metric).loss;
+}
+
+std::string pointsText(double points, double most) {
+    return shortNumber(rounded(points)) + " of " + shortNumber(rounded(most)) + " points";
+}
+
+bool isOfObjects(Topic topic) {
+    return topic == Topic::models || topic == Topic::transforms || topic == Topic::textures ||
+           topic == Topic::materials;
+}
+
+CriterionGrade judgeMeasured(const Grade& grade, const Criterion& rule, double most,
+                             double strictness) {
+    CriterionGrade out{rule.metric, 0, most, 0, ""};
+    const ViewGrade* worst = nullptr;
+    for (const ViewGrade& view : grade.views) {
+        const double value = lossIn(view, *rule.metric);
+        out.measured += value / static_cast<double>(grade.views.size());
+        if (worst == nullptr || value > lossIn(*worst, *rule.metric)) worst = &view;
+    }
+    const double loss = std::clamp(
+        strictness * (out.measured - rule.tolerance) / (rule.limit - rule.tolerance), 0.0, 1.0);
+    out.points = most * (1.0 - loss) * grade.present;
+    out.reason = rule.metric->image()->sentence(out.measured);
+    if (worst != nullptr && grade.views.size() > 1 && lossIn(*worst, *rule.metric) > out.measured)
+        out.reason += ", most of it " + worst->name;
+    out.reason += out.points < most ? "; that gives " + pointsText(out.points, most)
+                                    : "; up to " + shortNumber(rule.tolerance) + " costs nothing";
+    out.reason += ".";
+    if (out.reason[0] >= 'a' && out.reason[0] <= 'z')
+        out.reason[0] = static_cast<char>(out.reason[0] - 'a' + 'A');
+    return out;
+}
+
+/// The line and its neighbours, with numbers.
+std::string excerptOf(const std::string& xml, int line) {
+    constexpr std::size_t kLongest = 160;  // bytes of a line
+    std::string out;
+    std::size_t begin = 0;
+    for (int number = 1; begin < xml.size() && number <= line + 1; ++number) {
+        const std::size_t end = std::min(xml.size(), xml.find('\n', begin));
+        if (number >= line - 1) {
+            std::string text = xml.substr(begin, std::min(end - begin, kLongest));
+            while (!text.empty() && (text.back() == '\r' || text.back() == ' ')) text.pop_back();
+            out += std::to_string(number) + (number == line ? " > " : "   ") + text + "\n";
+        }
+        begin = end + 1;
+    }
+    return out;
+}
+
+/// The line of the camera's element that a cause is about: the scene tells the camera's alone.
+Location cameraPlace(const std::string& code, Location where, const std::string& xml) {
+    static const std::map<std::string, std::string> kElements{{"camera.position", "<position"},
+                                                              {"camera.target", "<lookat"},
+                                                              {"camera.up", "<up"},
+                                                              {"camera.fov", "<projection"},
+                                                              {"camera.fov-radians", "<projection"},
+                                                              {"camera.range", "<projection"}};
+    const auto element = kElements.find(code);
+    if (element == kElements.end() || where.line <= 0) return where;
+    std::size_t at = 0;
+    for (int line = 1; line < where.line && at != std::string::npos; ++line) {
+        at = xml.find('\n', at);
+        if (at != std::string::npos) ++at;
+    }
+    if (at == std::string::npos) return where;
+    const std::string rest = lowerCase(xml.substr(at));
+    const std::size_t found = rest.find(element->second);
+    if (found == std::string::npos || found > rest.find("</camera")) return where;
+    where.line += static_cast<int>(
+        std::count(rest.begin(), rest.begin() + static_cast<std::ptrdiff_t>(found), '\n'));
+    where.column = 0;
+    return where;
+}
+
+double penaltyOf(const Grade& grade, const Rubric& rubric) {
+    double sum = 0.0;
+    for (const Diagnostic& one : grade.diagnostics) {
+        const auto special = rubric.byCode.find(one.code);
+        if (special != rubric.byCode.end())
+            sum += special->second;
+        else if (one.severity != Severity::info)  // errors: of what placeholders stand for
+            sum += rubric.perWarning;
+    }
+    return std::min(sum, rubric.mostPenalty);
+}
+
+/// The name without its own line where the place has one.
+std::string nameAt(const Fix& fix) {
+    const std::size_t at = fix.who.rfind(" (line ");
+    return fix.where.line > 0 && at != std::string::npos ? fix.who.substr(0, at) : fix.who;
+}
+
+std::string lineText(const Location& where) {
+    return where.line > 0 ? " (line " + std::to_string(where.line) + ")" : "";
+}
+
+/// "group "door": the angle has the wrong sign (line 65)"; of several places once, with all.
+std::string sentenceOf(const Cause& cause, Reveal reveal) {
+    const Fix& first = cause.fixes.front();
+    const auto valuesOf = [&](const Fix& fix) {
+        return reveal == Reveal::values && !fix.values.empty() ? "; it " + fix.values
+                                                               : std::string();
+    };
+    static const std::set<std::string> kVerbs{"is", "has", "stands", "shines", "moves"};
+    const std::string verb = first.what.substr(0, first.what.find(' '));
+    const std::string link = kVerbs.count(verb) != 0 ? " " : ": ";
+    if (cause.fixes.size() == 1)
+        return nameAt(first) + link + first.what + valuesOf(first) + lineText(first.where);
+    constexpr std::size_t kListed = 6;
+    std::string places;
+    for (std::size_t i = 0; i < std::min(kListed, cause.fixes.size()); ++i)
+        places += (i > 0 ? ", " : "") + nameAt(cause.fixes[i]) + lineText(cause.fixes[i].where);
+    if (cause.fixes.size() > kListed)
+        places += " and " + std::to_string(cause.fixes.size() - kListed) + " more";
+    return "at " + std::to_string(cause.fixes.size()) + " places " + first.what + valuesOf(first) +
+           ": " + places;
+}
+
+/// The criteria of the work, as a rubric weighs them.
+class WorkScore {
+  public:
+    WorkScore(Grade& grade, const Evidence& evidence, const Rubric& rubric)
+        : grade_(grade), evidence_(evidence), rubric_(rubric) {
+        const Rubric usual = defaultRubric();
+        double usualWeights = 0.0;
+        ByTopic usualWeight{};
+        for (const Criterion& one : usual.criteria)
+            if (applies(one)) {
+                usualWeights += one.weight;
+                if (one.metric->causes() != nullptr)
+                    usualWeight[indexOf(one.metric->causes()->topic)] = one.weight;
+            }
+        for (const Criterion& one : rubric.criteria)
+            if (applies(one)) weights_ += one.weight;
+        for (const Criterion& one : rubric.criteria) {
+            if (!applies(one) || one.metric->causes() == nullptr) continue;
+            const std::size_t topic = indexOf(one.metric->causes()->topic);
+            most_[topic] = rubric.points * one.weight / weights_;
+            left_[topic] = most_[topic] * evidence.present;
+            const double share = one.weight / weights_,
+                         usualShare = usualWeight[topic] / usualWeights;
+            constexpr double kMostFactor = 4.0;
+            factor_[topic] = std::min(kMostFactor, usualShare > 0.0 ? share / usualShare : 1.0) *
+                             one.perFinding / 0.5;
+        }
+    }
+
+    double weights() const { return weights_; }
+
+    bool applies(const Criterion& one) const {
+        if (one.weight <= 0.0) return false;
+        const CauseMetric* work = one.metric->causes();
+        if (work == nullptr) return true;
+        if (work->topic == Topic::lights) return evidence_.lights > 0;
+        if (work->topic == Topic::camera) return evidence_.hasCamera;
+        return work->topic != Topic::animation || evidence_.moves;
+    }
+
+    void charge() {
+        const auto& causes = evidence_.diagnosis->causes;
+        for (std::size_t c = 0; c < causes.size(); ++c)
+            grade_.causes[c].points = rounded(chargeCause(causes[c], c));
+        if (evidence_.unexplained > kFree) {
+            constexpr double kLeast = 3.0, kMost = 45.0;  // hundredths
+            const double share = std::min(1.0, evidence_.unexplained - kFree);
+            grade_.unexplained =
+                rounded(takeFromObjects(hundredths(kLeast + (kMost - kLeast) * std::sqrt(share))));
+        }
+    }
+
+    CriterionGrade judged(const Criterion& rule) const {
+        const Topic topic = rule.metric->causes()->topic;
+        const std::size_t at = indexOf(topic);
+        CriterionGrade out{rule.metric, left_[at], most_[at], 0, ""};
+        int count = 0;
+        for (const GradedCause& one : grade_.causes)
+            count += kindOf(one.code).topic == topic && one.points > 0.0 ? 1 : 0;
+        if (count > 0) out.reason = std::to_string(count) + (count > 1 ? " causes" : " cause");
+        if (grade_.present < 1.0 - 1e-9)
+            out.reason += (out.reason.empty() ? "" : "; ") + percent(grade_.present) +
+                          " of the objects are there";
+        if (out.reason.empty())
+            out.reason = out.points < out.most - 0.005
+                             ? "Causes of other criteria cost more than those have"
+                             : "Nothing differs";
+        out.reason += ".";
+        return out;
+    }
+
+    static constexpr double kFree = 0.02;  // share that rounding and drivers may change
+
+  private:
+    static std::size_t indexOf(Topic topic) { return static_cast<std::size_t>(topic); }
+
+    double hundredths(double value) const {
+        return value / 100.0 * rubric_.points * rubric_.strictness;
+    }
+
+    double chargeCause(const Cause& cause, std::size_t index) {
+        const Kind& kind = kindOf(cause.code);
+        const std::size_t topic = indexOf(kind.topic);
+        if (!grade_.causes[index].isSeen || kind.most <= 0.0) return 0.0;
+        if (evidence_.isUnclosed && kind.code == "group.parent") return 0.0;
+        double cost =
+            hundredths(costOf(kind, evidence_.spoiled[index], cause.fixes.size()) * factor_[topic]);
+        if (isOfObjects(kind.topic)) {
+            const double own = std::min(cost, left_[topic]);
+            left_[topic] -= own;
+            return own + (factor_[topic] > 0.0 ? takeFromObjects(cost - own) : 0.0);
+        }
+        cost *= evidence_.present;
+        // A light that is not there earns nothing.
+        if (kind.code == "light.missing")
+            cost = std::max(cost, most_[topic] * evidence_.present / evidence_.lights);
+        const double own = std::min(cost, left_[topic]);
+        left_[topic] -= own;
+        return own;
+    }
+
+    /// Takes what one criterion cannot cover from all that objects earn, and returns how much.
+    double takeFromObjects(double points) {
+        double all = 0.0;
+        for (std::size_t t = 0; t < kTopics; ++t)
+            if (isOfObjects(static_cast<Topic>(t))) all += left_[t];
+        if (all <= 0.0 || points <= 0.0) return 0.0;
+        const double share = std::min(1.0, points / all);
+        for (std::size_t t = 0; t < kTopics; ++t)
+            if (isOfObjects(static_cast<Topic>(t))) left_[t] *= 1.0 - share;
+        return share * all;
+    }
+
+    Grade& grade_;
+    const Evidence& evidence_;
+    const Rubric& rubric_;
+    double weights_ = 0.0;
+    ByTopic most_{}, left_{}, factor_{};
+};
+
+}  // namespace
+
+std::vector<Criterion> pictureCriteria(const Rubric& rubric) {
+    std::vector<Criterion> out;
+    for (const Criterion& one : rubric.criteria)
+        if (one.weight > 0.0 && one.metric->appliesToPictures()) out.push_back(one);
+    if (!out.empty()) return out;
+    for (const MetricSpec& metric : metrics())
+        if (metric.appliesToPictures() && metric.weight > 1.0)
+            out.push_back(
+                {&metric, metric.weight, metric.image()->tolerance, metric.image()->limit});
+    return out;
+}
+
+void score(Grade& grade, const Evidence* evidence, const Rubric& rubric, const std::string& xml,
+           const std::string& name) {
+    const auto excerptAt = [&](const Location& where) {
+        return where.line > 0 && where.file == name ? excerptOf(xml, where.line) : "";
+    };
+    std::set<std::string> shown;  // of what is wrong in many places, the first
+    for (const Diagnostic& one : grade.diagnostics)
+        grade.excerpts.push_back(one.severity != Severity::info && shown.insert(one.message).second
+                                     ? excerptAt(one.where)
+                                     : "");
+    if (grade.notGraded) return;
+    double points = 0.0;
+    if (evidence != nullptr) {
+        grade.present = evidence->present;
+        grade.unexplainedShare = evidence->unexplained;
+        std::vector<Cause> causes = evidence->diagnosis->causes;
+        for (std::size_t c = 0; c < causes.size(); ++c) {
+            for (Fix& fix : causes[c].fixes)
+                fix.where = cameraPlace(causes[c].code, fix.where, xml);
+            GradedCause cause;
+            cause.code = causes[c].code;
+            cause.message = sentenceOf(causes[c], rubric.reveal);
+            cause.spoiled = evidence->spoiled[c];
+            constexpr double kSeen = 5e-4;  // of the work: less is a few pixels' rounding
+            cause.isSeen = cause.spoiled > kSeen;
+            if (evidence->isUnclosed && cause.code == "group.parent")
+                cause.message += "; this follows from the missing end tag";
+            for (const Fix& fix : causes[c].fixes)
+                cause.places.push_back({fix.who, fix.where, excerptAt(fix.where)});
+            grade.causes.push_back(std::move(cause));
+        }
+        WorkScore work(grade, *evidence, rubric);
+        work.charge();
+        for (const Criterion& one : rubric.criteria) {
+            if (!work.applies(one)) continue;
+            const double most = rubric.points * one.weight / work.weights();
+            grade.criteria.push_back(one.metric->causes() != nullptr
+                                         ? work.judged(one)
+                                         : judgeMeasured(grade, one, most, rubric.strictness));
+            points += grade.criteria.back().points;
+        }
+    } else {
+        double weights = 0.0;
+        const std::vector<Criterion> criteria = pictureCriteria(rubric);
+        for (const Criterion& one : criteria) weights += one.weight;
+        for (const Criterion& one : criteria) {
+            grade.criteria.push_back(
+                judgeMeasured(grade, one, rubric.points * one.weight / weights, rubric.strictness));
+            points += grade.criteria.back().points;
+        }
+    }
+    const double repaired = evidence != nullptr ? evidence->penalty / 100.0 * rubric.points : 0.0;
+    grade.penalty = rounded(penaltyOf(grade, rubric) + repaired);
+    grade.points = rounded(std::max(0.0, points - grade.penalty));
+    grade.passed = grade.points >= rubric.points * rubric.passMark / 100.0;
+}
+
+}  // namespace farol::grade

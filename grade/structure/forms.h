@@ -1,0 +1,57 @@
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "grade/structure/outline.h"
+#include "grade/structure/surface.h"
+
+namespace farol::grade {
+
+/// How two meshes relate in object space, wherever they stand.
+struct Likeness {
+    Surface surface;
+    glm::dmat4 mineFromTheirs{1.0};  ///< a sphere of radius 2 is one of radius 1 that is scaled
+
+    bool isOneForm() const { return surface.isOnePlace(); }
+};
+
+/// Rotations of an untextured surface that nobody sees.
+enum class Symmetry { none, axial, ball };
+Symmetry symmetryOf(const Outline::Item& item);
+
+/// What comparisons need of the meshes of a reference; it serves all submissions.
+class ReferenceMeshes {
+  public:
+    explicit ReferenceMeshes(std::shared_ptr<const scene::Assets> assets)
+        : assets_(std::move(assets)) {}
+    const KnownMesh& get(const Outline::Item& item);
+
+  private:
+    std::shared_ptr<const scene::Assets> assets_;
+    std::map<std::uint64_t, KnownMesh> known_;
+};
+
+/// Compares meshes of both sides, each pair once.
+class Forms {
+  public:
+    explicit Forms(ReferenceMeshes& reference) : reference_(reference) {}
+    const Likeness& compare(const Outline::Item& theirs, const Outline::Item& mine);
+
+  private:
+    Likeness measure(const Outline::Item& theirs, const Outline::Item& mine);
+
+    ReferenceMeshes& reference_;
+    std::map<std::pair<std::uint64_t, std::uint64_t>, Likeness> known_;
+};
+
+/// Returns whether an object of these bounds, object space, stands alike by both matrices: no
+/// corner is off by more than what rounding to three digits makes. `sceneSize` is the extent of the
+/// reference.
+bool isSamePlace(const glm::dmat4& theirs, const glm::dmat4& mine, const render::Box& bounds,
+                 Symmetry symmetry, double sceneSize);
+
+/// Their matrix, turned about the object's own symmetry to what mine is: what is left to explain.
+glm::dmat4 alignedTo(const glm::dmat4& theirs, const glm::dmat4& mine, Symmetry symmetry);
+
+}  // namespace farol::grade

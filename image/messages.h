@@ -1,0 +1,27 @@
+#pragma once
+
+#include "core/message.h"
+
+namespace farol::image {
+
+inline constexpr MessageRow kImageMessages[] = {
+    {"image.unreadable",
+     "cannot read image \"{name}\": {reason}",
+     {"brick.png", "PNG: the file is cut off"}},
+    {"image.unreadable/empty", "cannot read image \"{name}\": the file is empty", {"brick.png"}},
+    {"image.unreadable/format",
+     "cannot read image \"{name}\": unknown format; expected PNG, JPEG, WebP, GIF, BMP, TGA, PNM, "
+     "Radiance HDR, OpenEXR or TIFF. Save the image as PNG",
+     {"brick.svg"}},
+    {"limit.texture",
+     "image \"{name}\" is {size}; expected at most {max} million pixels. Scale the image down",
+     {"brick.png", "20000 x 20000 px", "64"}},
+};
+
+/// A message of this floor's table.
+template <FixedString kId, FixedString... kNames>
+Message message(const NamedArgument<kNames>&... arguments) {
+    return makeMessage<kId, kImageMessages>(arguments...);
+}
+
+}  // namespace farol::image

@@ -1,0 +1,131 @@
+#include <algorithm>
+
+#include "image/image.h"
+
+namespace farol::image {
+namespace {
+
+/// 8 fractional bits, so that rounding does not add up from level to level.
+struct Fixed {
+    int width, height;
+    std::vector<std::uint16_t> values;
+};
+
+/// Weights of source texels for one target texel, scaled to add up to `source` (exact integers).
+struct Span {
+    int first;
+    int count;
+    std::uint32_t weights[3];
+};
+
+std::vector<Span> spans(int source, int target) {
+    // Target texel t covers [t*source, (t+1)*source) in units of 1/target source texels.
+    std::vector<Span> all(static_cast<std::size_t>(target));
+    for (int t = 0; t < target; ++t) {
+        Span& span = all[static_cast<std::size_t>(t)];
+        const std::int64_t begin = std::int64_t{t} * source;
+        const std::int64_t end = begin + source;
+        span.first = static_cast<int>(begin / target);
+        span.count = 0;
+        for (std::int64_t at = span.first; at * target < end && span.count < 3; ++at) {
+            const std::int64_t from = std::max(begin, at * target);
+            const std::int64_t to = std::min(end, (at + 1) * target);
+            span.weights[span.count++] = static_cast<std::uint32_t>(to - from);
+        }
+    }
+    return all;
+}
+
+/// Of four texels each, all weights alike: what the general case comes to, without its divisions.
+/// `scale` makes 1/256 of the texels' values.
+template <typename Texel>
+void halveEven(const Texel* from, unsigned scale, Fixed& to) {
+    const std::size_t stride = static_cast<std::size_t>(to.width) * 8;
+    std::uint16_t* out = to.values.data();
+    for (std::size_t y = 0; y < static_cast<std::size_t>(to.height); ++y) {
+        const Texel* upper = from + 2 * y * stride;
+        const Texel* lower = upper + stride;
+        for (std::size_t x = 0; x < stride; x += 8)
+            for (std::size_t c = 0; c < 4; ++c) {
+                const unsigned sum =
+                    0U + upper[x + c] + upper[x + 4 + c] + lower[x + c] + lower[x + 4 + c];
+                *out++ = static_cast<std::uint16_t>((sum * scale + 2U) >> 2);
+            }
+    }
+}
+
+Fixed halve(const Fixed& from) {
+    Fixed to{std::max(1, from.width / 2), std::max(1, from.height / 2), {}};
+    to.values.resize(static_cast<std::size_t>(to.width) * static_cast<std::size_t>(to.height) * 4);
+    if (from.width % 2 == 0 && from.height % 2 == 0) {
+        halveEven(from.values.data(), 1, to);
+        return to;
+    }
+    const std::vector<Span> columns = spans(from.width, to.width);
+    const std::vector<Span> rows = spans(from.height, to.height);
+    const std::uint64_t total =
+        static_cast<std::uint64_t>(from.width) * static_cast<std::uint64_t>(from.height);
+    std::size_t out = 0;
+    for (const Span& row : rows) {
+        for (const Span& column : columns) {
+            std::uint64_t sum[4] = {total / 2, total / 2, total / 2, total / 2};
+            for (int j = 0; j < row.count; ++j) {
+                const std::size_t line =
+                    static_cast<std::size_t>(row.first + j) * static_cast<std::size_t>(from.width);
+                for (int i = 0; i < column.count; ++i) {
+                    const std::uint64_t weight = std::uint64_t{row.weights[j]} * column.weights[i];
+                    const std::uint16_t* texel =
+                        &from.values[(line + static_cast<std::size_t>(column.first + i)) * 4];
+                    for (int c = 0; c < 4; ++c) sum[c] += weight * texel[c];
+                }
+            }
+            for (const std::uint64_t one : sum)
+                to.values[out++] = static_cast<std::uint16_t>(one / total);
+        }
+    }
+    return to;
+}
+
+}  // namespace
+
+bool isOpaque(const Image& image) {
+    // A row at a time, without a branch for each pixel.
+    const std::size_t stride = static_cast<std::size_t>(image.width) * 4;
+    for (std::size_t row = 0; row < image.pixels.size(); row += stride) {
+        std::uint8_t all = 255;
+        for (std::size_t i = row + 3; i < row + stride; i += 4) all &= image.pixels[i];
+        if (all != 255) return false;
+    }
+    return true;
+}
+
+std::vector<Image> buildMipmaps(const Image& base) {
+    std::vector<Image> levels;
+    Fixed level{base.width, base.height, {}};
+    const bool even = base.width % 2 == 0 && base.height % 2 == 0;
+    if (!even) {
+        level.values.resize(base.pixels.size());
+        std::transform(base.pixels.begin(), base.pixels.end(), level.values.begin(),
+                       [](std::uint8_t v) { return static_cast<std::uint16_t>(v << 8); });
+    }
+    while (level.width > 1 || level.height > 1) {
+        if (even && levels.empty()) {
+            // Straight from the picture: twice its size in memory is saved.
+            level = Fixed{base.width / 2, base.height / 2, {}};
+            level.values.resize(base.pixels.size() / 4);
+            halveEven(base.pixels.data(), 256, level);
+        } else {
+            level = halve(level);
+        }
+        Image image{level.width, level.height, {}};
+        image.pixels.resize(level.values.size());
+        std::transform(
+            level.values.begin(), level.values.end(), image.pixels.begin(), [](std::uint16_t v) {
+                return static_cast<std::uint8_t>(std::min<unsigned>(255U, (v + 128U) >> 8));
+            });
+        levels.push_back(std::move(image));
+    }
+    return levels;
+}
+
+}  // namespace farol::image

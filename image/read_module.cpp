@@ -1,0 +1,93 @@
+#include <dlfcn.h>
+#include <malloc.h>
+
+#include <filesystem>
+#include <mutex>
+#include <new>
+#include <stdexcept>
+#include <string>
+#include <thread>
+
+#include "core/build_id.h"
+#include "image/module.h"
+
+namespace farol::image {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string findModule() {
+    std::error_code failed;
+    const fs::path folder = fs::read_symlink("/proc/self/exe", failed).parent_path();
+    // Beside the program, as built or copied; installed; the tests lie one or two folders deeper.
+    for (const char* place : {"", "../lib/farol", "..", "../.."}) {
+        const fs::path file = folder / place / FAROL_OIIO_MODULE;
+        if (fs::exists(file, failed)) return file.lexically_normal().string();
+    }
+    return (folder / FAROL_OIIO_MODULE).string();
+}
+
+/// A library of the module starts libgcrypt, which warns on standard error where a sandbox keeps it
+/// from locking memory. No secrets are here.
+void silenceGcrypt() {
+    constexpr int kDisableSecureMemoryWarning = 27;  // GCRYCTL_DISABLE_SECMEM_WARN
+    void* library = dlopen("libgcrypt.so.20", RTLD_NOW | RTLD_LOCAL);
+    if (library == nullptr) return;
+    using Control = unsigned (*)(int command, ...);
+    if (const auto control = reinterpret_cast<Control>(dlsym(library, "gcry_control")))
+        control(kDisableSecureMemoryWarning);
+}
+
+ModuleRead load() {
+    buildId();  // of the program as it started, whatever it loads later
+    silenceGcrypt();
+    void* module = dlopen(moduleFile(), RTLD_NOW | RTLD_LOCAL);
+    void* function = module == nullptr ? nullptr : dlsym(module, kModuleRead);
+    if (function == nullptr) {
+        const char* why = dlerror();
+        throw std::runtime_error(
+            std::string("the module that reads this format cannot be loaded: ") +
+            (why == nullptr ? "it has no reader" : why) +
+            "; fix: install it and OpenImageIO 2.4, or save the image as PNG or Radiance HDR");
+    }
+    return reinterpret_cast<ModuleRead>(function);
+}
+
+/// While it lives, malloc hands out zeroed memory: M_PERTURB writes the complement of its value.
+/// Memory that a thread keeps for itself is left out, so the work needs a new thread.
+class ZeroedMemory {
+  public:
+    ZeroedMemory() { mallopt(M_PERTURB, 0xff); }
+    ~ZeroedMemory() { mallopt(M_PERTURB, 0); }
+    ZeroedMemory(const ZeroedMemory&) = delete;
+    ZeroedMemory& operator=(const ZeroedMemory&) = delete;
+};
+
+}  // namespace
+
+const char* moduleFile() {
+    static const std::string file = findModule();
+    return file.c_str();
+}
+
+void readByModule(const ModuleRequest& request) {
+    static std::mutex mutex;
+    static ModuleRead read = nullptr;
+    const std::lock_guard lock(mutex);
+    if (read == nullptr) read = load();
+    bool isDecoded = false;
+    std::string reason;
+    {
+        const ZeroedMemory memory;
+        std::thread thread([&] {
+            const char* failure = read(request);
+            isDecoded = failure == nullptr;
+            if (!isDecoded) reason = failure;
+        });
+        thread.join();
+    }
+    if (reason == kModuleOutOfMemory) throw std::bad_alloc();
+    if (!isDecoded) throw std::runtime_error(reason);
+}
+
+}  // namespace farol::image

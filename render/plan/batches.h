@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "render/plan/frame_plan.h"
+
+namespace farol::render {
+
+/// From this many on a batch is one call: fewer do not pay for a shader of their own.
+inline constexpr std::size_t kLeastInstances = 8;
+
+/// Orders all items. Where two surfaces lie in one place the first of the document wins: a model
+/// moves up to its likes only past models that it cannot meet, since no pixel is theirs in common
+/// or their distances differ. Without `merge` each item is a batch.
+Batches batchesOf(const std::vector<DrawItem>& items, const ViewTransform& view, bool merge);
+
+}  // namespace farol::render

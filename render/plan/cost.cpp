@@ -1,0 +1,163 @@
+#include "render/plan/cost.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <vector>
+
+#include "render/plan/frustum.h"
+
+namespace farol::render {
+namespace {
+
+// Core-seconds, the largest seen for each of several scenes (docs/benchmarks/rendering.md).
+constexpr double kPixelCost = 60e-9;      // once
+constexpr double kPixelPassCost = 35e-9;  // clear, resolve and sum of a pass
+constexpr double kFragmentCost = 6e-9;    // without light
+constexpr double kLightCost = 18e-9;      // of a fragment
+constexpr double kSurfaceCost = 25e-9;    // of a fragment that takes its normal from a surface
+constexpr double kTexelCost = 12e-9, kAnisotropicCost = 36e-9;
+constexpr double kTriangleCost = 0.25e-6, kLineCost = 1.5e-6;  // of a pass
+constexpr double kCallCost = 15e-6;                            // of a pass
+constexpr double kLineWidth = 4.0;  // px that a line's fragments are counted as
+
+/// Area that a box covers in the picture, px; all of it where the box reaches the eye.
+double coveredArea(const Box& box, const glm::dmat4& viewFromObject, const ViewTransform& view) {
+    const glm::dvec2 size(view.size);
+    const std::optional<PixelRect> rect = pixelRect(box, viewFromObject, view);
+    if (!rect) return size.x * size.y;
+    const glm::dvec2 side =
+        glm::clamp(rect->max, glm::dvec2(0.0), size) - glm::clamp(rect->min, glm::dvec2(0.0), size);
+    return std::max(0.0, side.x) * std::max(0.0, side.y);
+}
+
+/// How many layers of triangles a mesh has before each other, about: 1 for closed shapes.
+double layersOf(const MeshData& data) {
+    const generator::Mesh& mesh = data.mesh;
+    double area = 0.0;
+    for (std::size_t i = 0; i + 2 < mesh.indices().size(); i += 3) {
+        const glm::vec3& a = mesh.positions()[mesh.indices()[i]];
+        area += 0.5 * static_cast<double>(
+                          glm::length(glm::cross(mesh.positions()[mesh.indices()[i + 1]] - a,
+                                                 mesh.positions()[mesh.indices()[i + 2]] - a)));
+    }
+    const glm::dvec3 side = data.bounds.max - data.bounds.min;
+    const double faces = side.x * side.y + side.y * side.z + side.z * side.x;
+    return faces > 0.0 ? std::max(1.0, area / (2.0 * faces)) : 1.0;
+}
+
+double fragmentCost(const FramePlan& plan, const DrawItem& item) {
+    double cost = kFragmentCost;
+    if (static_cast<std::size_t>(item.lightSet) < plan.lightSets.size())
+        cost += kLightCost *
+                static_cast<double>(plan.lightSets[static_cast<std::size_t>(item.lightSet)].size());
+    if (item.surface) cost += kSurfaceCost;
+    if (item.texture >= 0)
+        cost += plan.textures[static_cast<std::size_t>(item.texture)].filter ==
+                        scene::Filter::anisotropic
+                    ? kAnisotropicCost
+                    : kTexelCost;
+    return cost;
+}
+
+/// How often the passes draw a model, how often by its outlines, and how many times they shade a
+/// pixel of it.
+struct DrawShare {
+    double draws = 0.0, outlines = 0.0, shadings = 0.0;
+};
+
+void addShares(const FramePlan& plan, const Pass& pass, const PassItem& item,
+               std::vector<DrawShare>& shares) {
+    if (item.kind != PassItem::Kind::models) return;
+    const double shadings = pass.state.eachSample     ? pass.target.samples
+                            : pass.target.samples > 1 ? 1.5
+                                                      : 1.0;
+    const bool outlined = pass.state.polygons != Polygons::filled;
+    for (std::size_t b = item.first; b < item.first + item.count; ++b) {
+        const Batch& batch = plan.batches.batches[b];
+        for (std::size_t i = batch.first; i < batch.first + batch.count; ++i) {
+            DrawShare& share = shares[plan.batches.order[i]];
+            share.draws += 1.0;
+            share.outlines += outlined ? 1.0 : 0.0;
+            share.shadings += shadings;
+        }
+    }
+}
+
+std::string adviceFor(const FramePlan& plan, const FrameCost& cost, int frames) {
+    if (frames > 1) return "lower frames, width or height";
+    if (cost.geometry > cost.fragments + cost.pixels)
+        return plan.style.samples > 4 ? "lower aa, or use fewer triangles or models"
+                                      : "use fewer triangles or models, or a larger error";
+    if (plan.style.samples > 4) return "lower aa, width or height";
+    if (cost.fragments > cost.pixels && plan.items.size() > 1)
+        return "lower width or height, or use fewer lights or models behind each other";
+    return "lower width or height";
+}
+
+}  // namespace
+
+FrameCost estimateCost(const FramePlan& plan) {
+    FrameCost cost;
+    const double pixels = static_cast<double>(plan.view.size.x) * plan.view.size.y;
+    cost.pixels = pixels * (kPixelCost + kPixelPassCost * static_cast<double>(plan.passes.size()));
+    std::vector<DrawShare> shares(plan.items.size());
+    for (const Pass& pass : plan.passes)
+        for (const PassItem& item : pass.items) addShares(plan, pass, item, shares);
+    for (std::size_t i = 0; i < shares.size(); ++i) {
+        const DrawItem& item = plan.items[i];
+        const DrawShare& share = shares[i];
+        const auto triangles = static_cast<double>(item.indices / 3);
+        cost.geometry +=
+            share.draws * kCallCost + triangles * ((share.draws - share.outlines) * kTriangleCost +
+                                                   share.outlines * kLineCost);
+        // A part of a mesh covers its share of it, about.
+        const auto whole =
+            static_cast<double>(std::max<std::size_t>(1, item.mesh->mesh.triangles()));
+        double area = coveredArea(item.mesh->bounds, glm::dmat4(item.viewFromObject), plan.view) *
+                      (triangles / whole);
+        if (share.outlines > 0.0) {
+            // Three sides of triangles that share the area.
+            area = std::min(3.0 * kLineWidth * std::sqrt(triangles * area), 3.0 * pixels);
+        } else if (triangles * area * fragmentCost(plan, item) > 1.0) {
+            area *= layersOf(*item.mesh);  // costs time itself: where it may matter alone
+        }
+        cost.fragments += share.shadings * area * fragmentCost(plan, item);
+    }
+    return cost;
+}
+
+void CostBudget::spend(const FramePlan& plan) {
+    if (whole_ <= 0.0) return;
+    const FrameCost cost = estimateCost(plan);
+    const double needed = cost.total() * frames_;
+    if (needed > left_) {
+        std::array<char, 400> text{};
+        std::snprintf(text.data(), text.size(),
+                      "the estimated cost is %.3g core-seconds for %d x %d px, %d samples, %lld "
+                      "triangles and %d frame%s; at most %.3g are allowed%s; ",
+                      needed, plan.view.size.x, plan.view.size.y, plan.style.samples,
+                      static_cast<long long>(plan.stats.triangles), frames_,
+                      frames_ == 1 ? "" : "s", left_,
+                      left_ < whole_ ? " after the frames before" : "");
+        throw Error("limit.cost", text.data() + adviceFor(plan, cost, frames_));
+    }
+    left_ -= cost.total();
+    frames_ = std::max(1, frames_ - 1);
+}
+
+void CostBudget::spend(double coreSeconds, const std::string& what) {
+    if (whole_ <= 0.0) return;
+    if (coreSeconds > left_) {
+        std::array<char, 200> text{};
+        std::snprintf(
+            text.data(), text.size(),
+            "the estimated cost is %.3g core-seconds for %s; at most %.3g are allowed%s; ",
+            coreSeconds, what.c_str(), left_, left_ < whole_ ? " after what came before" : "");
+        throw Error("limit.cost", text.data() + std::string("use fewer or smaller images"));
+    }
+    left_ -= coreSeconds;
+}
+
+}  // namespace farol::render

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <string>
+
+#include "render/plan/frame_plan.h"
+
+/// What a frame will cost, estimated from its plan before anything is drawn. The unit is a
+/// core-second: one second of one core of the machine that the constants in cost.cpp were measured
+/// on (docs/explanation/performance.md). The estimate errs upwards: it is there to refuse, not to
+/// schedule.
+namespace farol::render {
+
+struct FrameCost {
+    double pixels = 0.0;     ///< resolve, read-back and encoding, core-seconds
+    double fragments = 0.0;  ///< shading
+    double geometry = 0.0;   ///< triangles and draw calls, in every pass
+    double total() const { return pixels + fragments + geometry; }
+};
+
+FrameCost estimateCost(const FramePlan& plan);
+
+/// The core-seconds that frames may cost together.
+class CostBudget {
+  public:
+    CostBudget() = default;  ///< no bound
+    /// 0: no bound.
+    explicit CostBudget(double coreSeconds) : left_(coreSeconds), whole_(coreSeconds) {}
+
+    /// So many frames like the next one will follow it: the next one is refused where all together
+    /// exceed the budget.
+    void expectFrames(int frames) { frames_ = frames; }
+    /// Counts a frame before it is drawn. Throws Error limit.cost, whose message names what to
+    /// lower.
+    void spend(const FramePlan& plan);
+    /// Counts work on images that is no frame. Throws Error limit.cost; `what` names the work:
+    /// "comparing images of 4000 x 4000 px".
+    void spend(double coreSeconds, const std::string& what);
+
+  private:
+    double left_ = 0.0, whole_ = 0.0;
+    int frames_ = 1;
+};
+
+}  // namespace farol::render

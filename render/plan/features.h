@@ -1,0 +1,89 @@
+#pragma once
+
+#include <cstdint>
+#include <initializer_list>
+
+namespace farol::render {
+
+/// Features that a shader is compiled with; render/gl/program.cpp has their table of #defines.
+enum class Feature : std::uint8_t {
+    // Output other than colour.
+    layerId,
+    layerNormal,
+    layerDepth,
+    // Light: how it is worked out, and what of it there is.
+    lightCount,  ///< counted; every model's shader has it
+    unlit,
+    chess,
+    flat,
+    gouraud,
+    phong,
+    positional,
+    spot,
+    specular,
+    localViewer,
+    separateSpecular,
+    // Texture.
+    textured,
+    filterMipmap,
+    filterAnisotropic,
+    mappingSphere,
+    texgenObject,
+    texgenEye,
+    vertexColor,  ///< the mesh's own colours modulate, as a texture does
+    // Exact surface behind a mesh.
+    surface,
+    surfaceCaps,
+    surfaceProfile,
+    surfaceWrapsV,
+    surfaceRay,       ///< a step along the pixel's ray leads to it
+    surfaceTwoSteps,  ///< or two
+    surfaceTurnFromX,
+    surfaceDiscUv,
+    // Geometry.
+    instanced,
+    // Whole windows.
+    skybox,
+    resolve,  ///< counted: the samples of a pixel
+};
+inline constexpr int kFeatures = static_cast<int>(Feature::resolve) + 1;
+
+class FeatureSet {
+  public:
+    constexpr FeatureSet() = default;
+    constexpr FeatureSet(std::initializer_list<Feature> features) {
+        for (const Feature feature : features) add(feature);
+    }
+    static constexpr FeatureSet all() {
+        FeatureSet set;
+        set.bits_ = ~std::uint64_t{0};
+        return set;
+    }
+    constexpr bool has(Feature feature) const { return (bits_ & bit(feature)) != 0; }
+    constexpr bool hasAny(const FeatureSet& other) const { return (bits_ & other.bits_) != 0; }
+    constexpr void add(Feature feature) { bits_ |= bit(feature); }
+    constexpr FeatureSet operator|(const FeatureSet& other) const {
+        return of(bits_ | other.bits_);
+    }
+    constexpr FeatureSet operator&(const FeatureSet& other) const {
+        return of(bits_ & other.bits_);
+    }
+    auto operator<=>(const FeatureSet&) const = default;
+
+  private:
+    static constexpr std::uint64_t bit(Feature feature) {
+        return std::uint64_t{1} << static_cast<unsigned>(feature);
+    }
+    static constexpr FeatureSet of(std::uint64_t bits) {
+        FeatureSet set;
+        set.bits_ = bits;
+        return set;
+    }
+    std::uint64_t bits_ = 0;
+};
+static_assert(kFeatures <= 64);
+
+/// Any of them: lights are looked at.
+inline constexpr FeatureSet kLitFeatures{Feature::flat, Feature::gouraud, Feature::phong};
+
+}  // namespace farol::render

@@ -1,0 +1,145 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "core/error.h"
+#include "generator/registry.h"
+#include "render/options.h"
+#include "render/plan/camera.h"
+#include "render/plan/eye_light.h"
+#include "render/plan/features.h"
+#include "render/plan/mesh_library.h"
+#include "render/plan/report.h"
+#include "render/plan/texture_ref.h"
+#include "scene/scene.h"
+
+/// The passes of a frame and the tables that they draw from, decided before any GL. Matrices are
+/// composed in double; what stands here in float is relative to the eye.
+namespace farol::render {
+
+struct DrawItem {
+    std::shared_ptr<const MeshData> mesh;
+    glm::mat4 viewFromObject{1.0F};
+    glm::mat3 normalFromObject{1.0F};  ///< cofactor matrix, any positive scale, outward
+    /// Where the pixels take normals and coordinates from the surface itself: normalFromObject is
+    /// then for gradients in the surface's units.
+    std::optional<generator::Surface> surface;
+    glm::vec3 unitFromObject{1.0F};  ///< scale from the mesh to the surface's units
+    glm::vec3 surfaceEye{0.0F};      ///< the viewer in the surface's units
+    bool inside = false;             ///< the insides are drawn
+    bool mirrored = false;           ///< determinant < 0: front faces are clockwise
+    glm::vec3 diffuse{0.0F}, ambient{0.0F}, specular{0.0F}, emissive{0.0F};
+    float shininess = 0.0F;
+    int texture = -1;  ///< index into FramePlan::textures
+    scene::Mapping mapping = scene::Mapping::mesh;
+    glm::vec4 planeS{0.0F}, planeT{0.0F};
+    glm::vec4 uvFrom{1.0F, 1.0F, 0.0F, 0.0F};  ///< scale and offset of the mesh's coordinates
+    bool colored = false;                      ///< by the mesh's own colours
+    std::size_t firstIndex = 0, indices = 0;   ///< the part of the mesh that is drawn
+    int lightSet = 0;                          ///< index into FramePlan::lightSets
+    std::uint32_t id = 0;                      ///< 1.. in document order, for layer=id
+};
+
+/// Models that differ in nothing but their place: one mesh, one material, one texture, one set of
+/// lights.
+struct Batch {
+    std::size_t first = 0;  ///< index into Batches::order
+    std::size_t count = 0;
+    bool instanced = false;  ///< drawn by one call
+    // Made of its items by composePasses.
+    FeatureSet features;
+    glm::vec3 plainColor{0.0F};  ///< where nothing lights them
+};
+
+struct Batches {
+    std::vector<std::uint32_t> order;  ///< indices into FramePlan::items, batch after batch
+    std::vector<Batch> batches;
+};
+
+/// A segment's end in eye space.
+struct LineVertex {
+    glm::vec3 position;
+    glm::vec3 color;
+};
+
+/// Draw calls of one kind within a pass.
+struct PassItem {
+    enum class Kind {
+        models,  ///< batches
+        lines,
+        skybox,  ///< where nothing is drawn yet: the surroundings in a cube map
+        picture  ///< likewise: a texture that fills the window
+    };
+    Kind kind = Kind::models;
+    std::size_t first = 0, count = 0;  ///< of FramePlan::batches, or of its lines (pairs)
+    int texture = -1;                  ///< of skybox and picture: index into FramePlan::textures
+};
+
+/// Use of the pixels that a pass has drawn.
+enum class PassOutput {
+    none,   ///< they stay for the next pass
+    image,  ///< they are the image
+    mean    ///< the image is the mean of all such passes
+};
+
+/// Where a pass draws. Passes in a row with the same size, samples and channels share their pixels.
+struct PassTarget {
+    int samples = 1;    ///< of a pixel; 1, or the size of one of GlFacts::samplePatterns
+    bool wide = false;  ///< 16 bits a channel, so that a mean is rounded to levels once
+    std::optional<glm::vec4> clearColor;  ///< none: every sample is drawn, or kept
+    bool clearDepth = true;
+    PassOutput output = PassOutput::image;
+};
+
+enum class Polygons { filled, outlined, cornered };
+
+struct PassState {
+    bool depthTest = true;
+    Polygons polygons = Polygons::filled;  ///< of models
+    bool eachSample = false;               ///< shades every sample, not every pixel
+};
+
+struct Pass {
+    PassTarget target;
+    PassState state;
+    glm::dmat4 clip{1.0};  ///< clipFromEye: that of the view, moved by part of a pixel
+    std::vector<PassItem> items;
+    FeatureSet features;                          ///< of all models
+    FeatureSet itemFeatures = FeatureSet::all();  ///< those of Batch::features that it uses
+};
+
+/// Choices that passes and features follow from.
+struct FrameStyle {
+    Layer layer = Layer::color;
+    int samples = 1;
+    scene::Shading shading = scene::Shading::phong;
+    bool lit = true;  ///< false: materials show as their plain diffuse colour
+    scene::Viewer viewer = scene::Viewer::infinite;
+    scene::Specular specular = scene::Specular::single;
+    bool mergesCalls = true;  ///< of models that differ in their place alone
+    glm::vec4 background{0.0F, 0.0F, 0.0F, 1.0F};
+    int backgroundTexture = -1, skyboxTexture = -1;  ///< indices into FramePlan::textures
+};
+
+struct FramePlan {
+    ViewTransform view;
+    std::vector<Pass> passes;  ///< in their order
+    // Tables that the passes draw from.
+    std::vector<DrawItem> items;
+    Batches batches;  ///< of the items
+    std::vector<LineVertex> lines;
+    std::vector<std::vector<EyeLight>> lightSets;  ///< all empty where nothing is lit
+    glm::vec3 globalAmbient{1.0F};
+    std::vector<TextureRef> textures;
+    // Reports: nothing of it is drawn.
+    FrameStyle style;
+    scene::Camera camera;
+    Diagnostics findings;  ///< of the mesh files
+    Stats stats;
+};
+
+}  // namespace farol::render

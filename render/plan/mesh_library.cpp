@@ -1,0 +1,79 @@
+#include "render/plan/mesh_library.h"
+
+#include <atomic>
+#include <utility>
+
+namespace farol::render {
+namespace {
+
+std::uint64_t nextId() {
+    static std::atomic<std::uint64_t> last{0};
+    return ++last;
+}
+
+std::string keyOf(const scene::Model& model, const scene::Assets& assets) {
+    std::string key = std::to_string(static_cast<int>(model.source.kind)) + '\n' +
+                      std::to_string(static_cast<int>(model.uv)) + (model.autoLod ? "a\n" : "\n");
+    if (model.source.kind == scene::ModelSource::Kind::shape)
+        key += generator::textOf(model.source.shape);
+    if (!model.source.path.empty())
+        key += '\n' + model.source.path + '\n' + assets.version(model.source.path);
+    return key;
+}
+
+}  // namespace
+
+std::size_t bytesOf(const MeshData& data) {
+    return data.mesh.positions().size() * sizeof(glm::vec3) +
+           data.mesh.normals().size() * sizeof(glm::vec3) +
+           data.mesh.uvs().size() * sizeof(glm::vec2) +
+           data.mesh.colors().size() * sizeof(glm::u8vec4) +
+           data.mesh.indices().size() * sizeof(std::uint32_t);
+}
+
+std::shared_ptr<const MeshData> MeshLibrary::keep(const Key& key, generator::Mesh mesh,
+                                                  Diagnostics findings,
+                                                  const generator::ShapeCall* balanced) {
+    auto data = std::make_shared<MeshData>();
+    data->id = nextId();
+    data->mesh = std::move(mesh);
+    if (balanced != nullptr) {
+        data->balance = generator::balanceOf(*balanced);
+        data->fullTurn = generator::fullTurnOf(*balanced);
+    }
+    data->findings = std::move(findings);
+    for (const glm::vec3& position : data->mesh.positions()) data->bounds.add(glm::dvec3(position));
+    const std::size_t bytes = bytesOf(*data);
+    return meshes_.put(key, std::move(data), bytes);
+}
+
+std::shared_ptr<const MeshData> MeshLibrary::get(const scene::Model& model,
+                                                 const scene::Assets& assets) {
+    const Key key{keyOf(model, assets)};
+    if (const auto* known = meshes_.find(key)) return *known;
+    Diagnostics findings;
+    generator::Mesh mesh = generator::load(model, assets, &findings);
+    return keep(key, std::move(mesh), std::move(findings));
+}
+
+std::shared_ptr<const MeshData> MeshLibrary::get(const MeshData& coarse, const scene::Model& model,
+                                                 const scene::Assets& assets,
+                                                 const generator::Fineness& fineness) {
+    // All numbers stand on ladders.
+    const Key key{
+        {}, coarse.id, fineness.error, fineness.fullTurn, fineness.straightSide, fineness.balanced};
+    if (const auto* kept = meshes_.find(key)) return *kept;
+    // Many wishes end in the same divisions: one mesh, so that its models can share a draw call.
+    const generator::ShapeCall call = generator::refine(model, assets, fineness);
+    Key made{generator::textOf(call), coarse.id};
+    made.balanced = fineness.balanced;
+    const auto* known = meshes_.find(made);
+    const std::shared_ptr<const MeshData> mesh =
+        known ? *known
+              : keep(made, generator::generate(call, assets, model.uv), {},
+                     fineness.balanced ? &call : nullptr);
+    // Counted under each of its names, so that the bound is kept.
+    return meshes_.put(key, mesh, bytesOf(*mesh));
+}
+
+}  // namespace farol::render

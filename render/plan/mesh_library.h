@@ -1,0 +1,66 @@
+#pragma once
+
+#include <compare>
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "core/lru_cache.h"
+#include "generator/mesh.h"
+#include "generator/registry.h"
+#include "scene/files/assets.h"
+#include "scene/scene.h"
+
+namespace farol::render {
+
+/// Axis-aligned box; empty when min > max.
+struct Box {
+    glm::dvec3 min{1e300}, max{-1e300};
+    bool empty() const { return min.x > max.x; }
+    void add(const glm::dvec3& point) {
+        min = glm::min(min, point);
+        max = glm::max(max, point);
+    }
+};
+
+/// A mesh with what the plan asks of it. `id` is unique in the process.
+struct MeshData {
+    std::uint64_t id = 0;
+    generator::Mesh mesh;
+    Box bounds;               ///< object space
+    glm::dvec3 balance{1.0};  ///< generator::balanceOf, where the mesh was asked to be balanced
+    double fullTurn = 0.0;    ///< generator::fullTurnOf, likewise
+    Diagnostics findings;     ///< what was repaired in its file
+};
+
+/// Bytes that a mesh takes.
+std::size_t bytesOf(const MeshData& data);
+
+/// Meshes by source, kept within a bound of bytes, least recently used first out.
+class MeshLibrary {
+  public:
+    explicit MeshLibrary(std::size_t maxBytes) : meshes_(maxBytes) {}
+    /// The mesh of a resolved model. Throws as generator::load does.
+    std::shared_ptr<const MeshData> get(const scene::Model& model, const scene::Assets& assets);
+    /// The mesh of an open model (generator::isOpen), as fine as asked. `coarse`: what get without
+    /// fineness gave for the model.
+    std::shared_ptr<const MeshData> get(const MeshData& coarse, const scene::Model& model,
+                                        const scene::Assets& assets,
+                                        const generator::Fineness& fineness);
+
+  private:
+    /// By the text of its source, or by the coarse mesh's id and the fineness.
+    struct Key {
+        std::string source;
+        std::uint64_t coarse = 0;
+        double error = 0.0, fullTurn = 0.0, straightSide = 0.0;
+        bool balanced = false;
+        auto operator<=>(const Key&) const = default;
+    };
+    std::shared_ptr<const MeshData> keep(const Key& key, generator::Mesh mesh,
+                                         Diagnostics findings = {},
+                                         const generator::ShapeCall* balanced = nullptr);
+    LruCache<Key, std::shared_ptr<const MeshData>> meshes_;
+};
+
+}  // namespace farol::render

@@ -1,0 +1,161 @@
+#include "render/plan/passes.h"
+
+#include <algorithm>
+
+#include "render/plan/batches.h"
+#include "render/plan/sampling.h"
+
+namespace farol::render {
+namespace {
+
+constexpr FeatureSet kSurfaceFeatures{Feature::surface,          Feature::surfaceCaps,
+                                      Feature::surfaceProfile,   Feature::surfaceRay,
+                                      Feature::surfaceTwoSteps,  Feature::surfaceWrapsV,
+                                      Feature::surfaceTurnFromX, Feature::surfaceDiscUv};
+
+FeatureSet surfaceFeatures(const generator::Surface& surface) {
+    const generator::SurfaceKind& kind = *surface.kind;
+    FeatureSet features{Feature::surface};
+    if (kind.hasCaps) features.add(Feature::surfaceCaps);
+    if (kind.hasProfile) features.add(Feature::surfaceProfile);
+    if (kind.wrapsV) features.add(Feature::surfaceWrapsV);
+    if (kind.raySteps > 0) features.add(Feature::surfaceRay);
+    if (kind.raySteps > 1) features.add(Feature::surfaceTwoSteps);
+    if (surface.turnFromX) features.add(Feature::surfaceTurnFromX);
+    if (surface.discUv) features.add(Feature::surfaceDiscUv);
+    return features;
+}
+
+FeatureSet textureFeatures(scene::Filter filter, scene::Mapping mapping) {
+    FeatureSet features{Feature::textured};
+    if (filter == scene::Filter::mipmap) features.add(Feature::filterMipmap);
+    if (filter == scene::Filter::anisotropic) features.add(Feature::filterAnisotropic);
+    if (mapping == scene::Mapping::sphere) features.add(Feature::mappingSphere);
+    if (mapping == scene::Mapping::texgenObject) features.add(Feature::texgenObject);
+    if (mapping == scene::Mapping::texgenEye) features.add(Feature::texgenEye);
+    return features;
+}
+
+/// Only what the light of this set needs of this material is compiled into its shader.
+FeatureSet lightFeatures(const DrawItem& item, const std::vector<EyeLight>& lights,
+                         const FrameStyle& style) {
+    FeatureSet features;
+    const auto any = [&](auto test) { return std::any_of(lights.begin(), lights.end(), test); };
+    if (any([](const EyeLight& light) { return light.position.w != 0.0F; }))
+        features.add(Feature::positional);
+    if (any([](const EyeLight& light) { return light.spot.w > -2.0F; }))
+        features.add(Feature::spot);
+    const bool shines = item.specular != glm::vec3(0.0F) && any([](const EyeLight& light) {
+                            return glm::vec3(light.specular) != glm::vec3(0.0F);
+                        });
+    if (!shines) return features;
+    features.add(Feature::specular);
+    if (style.viewer == scene::Viewer::local) features.add(Feature::localViewer);
+    if (style.specular == scene::Specular::separate && (item.texture >= 0 || item.colored))
+        features.add(Feature::separateSpecular);
+    return features;
+}
+
+FeatureSet itemFeatures(const FramePlan& plan, const DrawItem& item) {
+    FeatureSet features;
+    if (item.texture >= 0)
+        features =
+            features | textureFeatures(plan.textures[static_cast<std::size_t>(item.texture)].filter,
+                                       item.mapping);
+    if (item.colored) features.add(Feature::vertexColor);
+    if (plan.style.lit)
+        features =
+            features | lightFeatures(item, plan.lightSets[static_cast<std::size_t>(item.lightSet)],
+                                     plan.style);
+    // What shows neither light nor a texture needs its outline only.
+    const bool plain = plan.style.layer == Layer::color && !plan.style.lit && item.texture < 0;
+    if (item.surface && !plain) features = features | surfaceFeatures(*item.surface);
+    return features;
+}
+
+FeatureSet shadingFeatures(const FrameStyle& style) {
+    FeatureSet features{Feature::lightCount};
+    if (style.shading == scene::Shading::chess) features.add(Feature::chess);
+    if (!style.lit)
+        features.add(Feature::unlit);
+    else if (style.shading == scene::Shading::flat)
+        features.add(Feature::flat);
+    else if (style.shading == scene::Shading::gouraud)
+        features.add(Feature::gouraud);
+    else if (style.shading == scene::Shading::phong)
+        features.add(Feature::phong);
+    return features;
+}
+
+void chooseFeatures(const FrameStyle& style, Pass& pass) {
+    switch (style.layer) {
+        case Layer::color:
+            pass.features = shadingFeatures(style);
+            break;
+        case Layer::id:
+            pass.features = {Feature::lightCount, Feature::layerId};
+            pass.itemFeatures = {};
+            break;
+        case Layer::normal:
+            pass.features = {Feature::lightCount, Feature::layerNormal};
+            pass.itemFeatures = kSurfaceFeatures;
+            break;
+        case Layer::depth:
+            pass.features = {Feature::lightCount, Feature::layerDepth};
+            pass.itemFeatures = kSurfaceFeatures;
+            break;
+    }
+}
+
+/// Three bytes of red, green and blue.
+glm::vec3 colorOf(std::uint32_t id) {
+    const glm::vec3 color(static_cast<float>((id >> 16) & 255U),
+                          static_cast<float>((id >> 8) & 255U), static_cast<float>(id & 255U));
+    return color / 255.0F;
+}
+
+/// Lines, models, and a backdrop behind them; a skybox hides the background's picture.
+void addItems(const FramePlan& plan, Pass& pass) {
+    if (!plan.lines.empty())
+        pass.items.push_back({PassItem::Kind::lines, 0, plan.lines.size(), -1});
+    pass.items.push_back({PassItem::Kind::models, 0, plan.batches.batches.size(), -1});
+    if (plan.style.skyboxTexture >= 0)
+        pass.items.push_back({PassItem::Kind::skybox, 0, 0, plan.style.skyboxTexture});
+    else if (plan.style.backgroundTexture >= 0)
+        pass.items.push_back({PassItem::Kind::picture, 0, 0, plan.style.backgroundTexture});
+}
+
+}  // namespace
+
+void composePasses(FramePlan& plan, const GlFacts& gl) {
+    const FrameStyle& style = plan.style;
+    const bool ids = style.layer == Layer::id;
+    // Ids are colours of their own: nothing is alike.
+    plan.batches = batchesOf(plan.items, plan.view, style.mergesCalls && !ids);
+    for (Batch& batch : plan.batches.batches) {
+        const DrawItem& first = plan.items[plan.batches.order[batch.first]];
+        batch.features = itemFeatures(plan, first);
+        batch.plainColor = ids ? colorOf(first.id) : first.diffuse;
+    }
+
+    const Sampling sampling = chooseSampling(style.samples, gl);
+    Pass pass;
+    pass.target.samples = sampling.samples;
+    // With passes of their own, each sample is shaded: what changes within a pixel is averaged.
+    pass.state.eachSample = pass.target.wide = sampling.passes > 1;
+    pass.target.output = sampling.passes > 1 ? PassOutput::mean : PassOutput::image;
+    if (style.skyboxTexture < 0 && style.backgroundTexture < 0)
+        pass.target.clearColor = style.background;
+    if (style.layer == Layer::color) {
+        if (style.shading == scene::Shading::wireframe) pass.state.polygons = Polygons::outlined;
+        if (style.shading == scene::Shading::points) pass.state.polygons = Polygons::cornered;
+    }
+    chooseFeatures(style, pass);
+    addItems(plan, pass);
+    plan.passes.assign(static_cast<std::size_t>(sampling.passes), pass);
+    for (int i = 0; i < sampling.passes; ++i)
+        plan.passes[static_cast<std::size_t>(i)].clip =
+            movedClip(plan.view, passOffset(i, sampling.passes));
+}
+
+}  // namespace farol::render

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "render/gl_facts.h"
+#include "render/plan/frame_plan.h"
+
+namespace farol::render {
+
+/// Makes the passes of a frame from its style, with the batches and the features of its items: one
+/// pass, or several of which the mean is taken where the GL gives fewer samples than are asked for.
+void composePasses(FramePlan& plan, const GlFacts& gl);
+
+}  // namespace farol::render

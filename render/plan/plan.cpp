@@ -1,0 +1,492 @@
+#include "render/plan/plan.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/plan/background.h"
+#include "render/plan/camera.h"
+#include "render/plan/frustum.h"
+#include "render/plan/light_reach.h"
+#include "render/plan/passes.h"
+#include "render/plan/sampling.h"
+#include "render/plan/tessellate.h"
+#include "scene/animation.h"
+
+namespace farol::render {
+namespace {
+
+constexpr int kDefaultSide = 512;
+/// Where nobody says: 4. Outlines that may be a pixel off gain nothing by more than one sample, and
+/// those held to a twelfth of one are worth more.
+int defaultSamples(double errorPx) {
+    return errorPx >= 1.0 ? 1 : errorPx > 0.08 ? 4 : errorPx > 0.03 ? 8 : 16;
+}
+
+/// Triangles of a frame from which on meshes are drawn as coarse as they come: copies that all fill
+/// the view would each be fine enough for it, and a frame take minutes. Some seconds' worth.
+constexpr std::int64_t kMostRefined = 16'000'000;
+constexpr double kAxisLength = 100.0;  // as the course draws them
+// Where the third-person camera holds its entity: in front of the eye, in eye space.
+constexpr glm::dvec3 kEntityPlace{0.0, 0.0, -3.0};
+// Half the diagonal of a sheared box is at most sqrt(3) times the root of its squared edges.
+constexpr double kShear = 1.7320508075688774;
+
+bool anyModel(const std::vector<scene::Group>& groups, bool (*test)(const scene::Model&)) {
+    return std::any_of(groups.begin(), groups.end(), [&](const scene::Group& group) {
+        return std::any_of(group.models.begin(), group.models.end(), test) ||
+               anyModel(group.groups, test);
+    });
+}
+
+/// The automatic choice: without lights, colours and textures the wireframe of the first phases;
+/// without lights unlit; else lit per pixel.
+scene::Shading automaticShading(const scene::Scene& scene, const InstanceList& list) {
+    if (!list.lights.empty()) return scene::Shading::phong;
+    const bool dressed = list.dressed || anyModel(scene.groups, [](const scene::Model& model) {
+                             return model.material.has_value() || model.texture.has_value();
+                         });
+    return dressed ? scene::Shading::solid : scene::Shading::wireframe;
+}
+
+[[noreturn]] void failSize(const glm::ivec2& size, int maxSide) {
+    throw Error("limit.pixels", "a picture of " + std::to_string(size.x) + " x " +
+                                    std::to_string(size.y) + " px is too large; at most " +
+                                    std::to_string(maxSide) + " a side are drawn");
+}
+
+class Planner {
+  public:
+    Planner(const scene::Scene& scene, const Placed& placed, const PictureOptions& options,
+            const scene::Assets& assets, MeshLibrary& meshes, const GlFacts& gl,
+            const Skipping& skipping)
+        : scene_(scene),
+          placed_(placed),
+          options_(options),
+          assets_(assets),
+          meshes_(meshes),
+          gl_(gl),
+          skipping_(skipping) {}
+
+    FramePlan run() {
+        const glm::ivec2 size = pictureSize(scene_, options_);
+        if (std::max(size.x, size.y) > gl_.maxTargetSide) failSize(size, gl_.maxTargetSide);
+        style_.mergesCalls = skipping_.calls;
+        const InstanceList& list = placed_.scene;
+        chooseStyle(list);
+        plan_.camera =
+            chooseCamera(scene_, options_, list.bounds, static_cast<double>(size.x) / size.y);
+        plan_.view = viewOf(plan_.camera, size);
+        samples_ = samplePattern(style_.samples, gl_);
+        addInstances(scene_, list, plan_.view, {});
+        plan_.findings = list.findings;
+        if (placed_.entity) addEntity();
+        addLines(list);
+        addBackground();
+        plan_.stats.textures = static_cast<int>(plan_.textures.size());
+        composePasses(plan_, gl_);
+        return std::move(plan_);
+    }
+
+  private:
+    void chooseStyle(const InstanceList& list) {
+        style_.samples =
+            options_.samples.value_or(scene_.settings.samples.value_or(defaultSamples(errorPx_)));
+        style_.shading = options_.shading          ? *options_.shading
+                         : scene_.settings.shading ? *scene_.settings.shading
+                                                   : automaticShading(scene_, list);
+        style_.layer = options_.layer;
+        // Ids, depths and normals have no meaning between two surfaces.
+        if (style_.layer != Layer::color) style_.samples = 1;
+        // More samples than four are asked for to see outlines better: a mesh that errs by more
+        // than they tell apart would waste them. `error` bounds from above, so less is allowed.
+        if (style_.samples > 4) errorPx_ = std::min(errorPx_, 1.0 / style_.samples);
+        const bool surface = style_.shading == scene::Shading::flat ||
+                             style_.shading == scene::Shading::gouraud ||
+                             style_.shading == scene::Shading::phong;
+        style_.lit = surface && !list.lights.empty() && style_.layer == Layer::color;
+        style_.viewer =
+            options_.viewer.value_or(scene_.settings.viewer.value_or(scene::Viewer::infinite));
+        style_.specular =
+            options_.specular.value_or(scene_.settings.specular.value_or(scene::Specular::single));
+        plan_.globalAmbient = scene_.globalAmbient;
+    }
+
+    /// `inherited`: lights of the set 0 that a list without lights of its own is lit by.
+    void addInstances(const scene::Scene& scene, const InstanceList& list,
+                      const ViewTransform& view, const std::vector<EyeLight>& inherited) {
+        const int firstSet = static_cast<int>(plan_.lightSets.size());
+        addLights(list, view, inherited);
+        addVisible(scene, list, view, firstSet);
+    }
+
+    void addVisible(const scene::Scene& scene, const InstanceList& list, const ViewTransform& view,
+                    int firstSet) {
+        const BoundsTree::Found found = list.tree.find(Frustum(view, standOutPx(list.anyOpen)));
+        plan_.stats.culledGroups += found.groupsSkipped;
+        const int firstId = plan_.stats.instances + 1;
+        plan_.stats.instances += static_cast<int>(list.instances.size());
+        const scene::Material undressed = scene::defaultMaterial(scene.dialect);
+        textureOf_.assign(list.textures.size(), -1);
+        const auto outside =
+            std::count(found.sides.begin(), found.sides.end(), Frustum::Side::outside);
+        plan_.items.reserve(plan_.items.size() + found.sides.size() -
+                            static_cast<std::size_t>(outside));
+        for (std::size_t i = 0; i < list.instances.size(); ++i) {
+            // Whether they are seen stands apart: what is not seen is not touched.
+            if (found.sides[i] != Frustum::Side::outside || !skipping_.outside)
+                add(list, i, view, found.sides[i], firstSet, firstId, undressed);
+            else
+                ++plan_.stats.culled;
+        }
+        plan_.stats.texturesSkipped +=
+            static_cast<int>(std::count(textureOf_.begin(), textureOf_.end(), -1));
+    }
+
+    /// A second scene whose world is eye space, lit by its own lights, else by the scene's.
+    void addEntity() {
+        ViewTransform view = plan_.view;
+        view.rotation = glm::dmat3(1.0);
+        view.eye = -kEntityPlace;
+        addInstances(*scene_.entity, *placed_.entity, view,
+                     std::vector<EyeLight>(plan_.lightSets[0]));
+    }
+
+    EyeLight toEye(const PlacedLight& placed, const ViewTransform& view) const {
+        const scene::Light& light = *placed.light;
+        const bool fixed = light.space == scene::LightSpace::camera;
+        const glm::dvec3 direction = fixed ? placed.direction : view.rotation * placed.direction;
+        const double size = glm::length(direction);
+        const glm::vec3 unit = size > 0.0 ? glm::vec3(direction / size) : glm::vec3(0.0F);
+        EyeLight eye{};
+        if (light.type == scene::LightType::directional)
+            eye.position = glm::vec4(unit, 0.0F);
+        else
+            eye.position = glm::vec4(
+                glm::vec3(fixed ? placed.position : view.eyeFromWorld(placed.position)), 1.0F);
+        const bool cone = light.type == scene::LightType::spot && light.cutoffDeg < 180.0;
+        eye.spot = glm::vec4(
+            unit, cone ? static_cast<float>(std::cos(glm::radians(light.cutoffDeg))) : -2.0F);
+        eye.attenuation = glm::vec4(light.constant, light.linear, light.quadratic, light.exponent);
+        eye.diffuse = glm::vec4(scene::colorAt(light.diffuse, options_.timeS), 1.0F);
+        eye.ambient = glm::vec4(scene::colorAt(light.ambient, options_.timeS), 1.0F);
+        eye.specular = glm::vec4(scene::colorAt(light.specular, options_.timeS), 1.0F);
+        return eye;
+    }
+
+    void addLights(const InstanceList& list, const ViewTransform& view,
+                   const std::vector<EyeLight>& inherited) {
+        std::vector<EyeLight> lights;
+        for (const PlacedLight& one : list.lights) lights.push_back(toEye(one, view));
+        for (const std::vector<int>& set : list.lightSets) {
+            std::vector<EyeLight>& chosen = plan_.lightSets.emplace_back();
+            if (!style_.lit) continue;
+            if (list.lights.empty()) chosen = inherited;
+            for (const int index : set) chosen.push_back(lights[static_cast<std::size_t>(index)]);
+        }
+        plan_.stats.lights += static_cast<int>(list.lights.size());
+    }
+
+    /// How far a mesh may stand out of its shape, px: only those made on demand do.
+    double standOutPx(bool open) const { return open ? errorPx_ : 0.0; }
+
+    /// True if no sample of the picture can lie on what the box holds. (Points and lines reach
+    /// past their geometry.)
+    bool betweenSamples(const Box& box, const glm::dmat4& viewFromObject) const {
+        if (!skipping_.betweenSamples || style_.shading == scene::Shading::wireframe ||
+            style_.shading == scene::Shading::points)
+            return false;
+        const std::optional<PixelRect> rect = pixelRect(box, viewFromObject, plan_.view);
+        return rect && missesSamples(*rect, samples_, gl_.snapPx);
+    }
+
+    void add(const InstanceList& list, std::size_t index, const ViewTransform& view,
+             Frustum::Side side, int firstSet, int firstId, const scene::Material& undressed) {
+        const Instance& instance = list.instances[index];
+        const glm::dmat3 linear = view.rotation * glm::dmat3(instance.worldFromObject);
+        if (instance.mesh->mesh.indices().empty() || linear == glm::dmat3(0.0)) {
+            ++plan_.stats.culled;
+            return;
+        }
+        glm::dmat4 viewFromObject(linear);
+        viewFromObject[3] =
+            glm::dvec4(view.eyeFromWorld(glm::dvec3(instance.worldFromObject[3])), 1.0);
+        // The model's own box fits closer than that along the world's axes.
+        if (skipping_.outside && side == Frustum::Side::straddles &&
+            isOutside(instance.mesh->bounds, viewFromObject, view, standOutPx(instance.open))) {
+            ++plan_.stats.culled;
+            return;
+        }
+        const scene::Model& model = *instance.model;
+        DrawItem item;
+        item.mesh = instance.mesh;
+        if (instance.open && plan_.stats.triangles < kMostRefined) {
+            const std::optional<SeenSurface> seen =
+                instance.surface >= 0 && wantsSurface()
+                    ? seenSurface(list.surfaces[static_cast<std::size_t>(instance.surface)],
+                                  viewFromObject)
+                    : std::nullopt;
+            item.mesh =
+                meshes_.get(*instance.mesh, model, assets_,
+                            fineness(instance.mesh->bounds, viewFromObject, seen,
+                                     model.texture.has_value(), {errorPx_, style_.shading}, view));
+            if (seen) {
+                const glm::dvec3& balance = item.mesh->balance;
+                for (int i = 0; i < 3; ++i) viewFromObject[i] *= balance[i];
+                if (seen->surface.kind->isNeeded(seen->surface, item.mesh->fullTurn,
+                                                 model.texture.has_value()))
+                    item.surface = seen->surface;
+                item.unitFromObject = glm::vec3(balance / seen->surface.lengths);
+                item.surfaceEye = glm::vec3(seen->eye);
+            }
+        }
+        // Only now is it known how far the mesh reaches: balanced ones stand out of their surface.
+        if (betweenSamples(item.mesh->bounds, viewFromObject)) {
+            ++plan_.stats.betweenSamples;
+            return;
+        }
+        item.viewFromObject = glm::mat4(viewFromObject);
+        // Cofactors: the inverse transpose without its division, so flattened objects work too.
+        glm::dmat3 cofactor(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
+                            glm::cross(linear[0], linear[1]));
+        const double det = glm::dot(linear[0], cofactor[0]);
+        if (item.surface)
+            for (int i = 0; i < 3; ++i) cofactor[i] /= item.surface->lengths[i];
+        double largest = 0.0;
+        for (int i = 0; i < 3; ++i)
+            for (int j = 0; j < 3; ++j) largest = std::max(largest, std::abs(cofactor[i][j]));
+        if (largest > 0.0)
+            item.normalFromObject = glm::mat3(cofactor * ((det < 0.0 ? -1.0 : 1.0) / largest));
+        item.mirrored = det < 0.0;
+        fillMaterial(item, instance, list, undressed);
+        item.indices = item.mesh->mesh.indices().size();
+        item.lightSet = firstSet + instance.lightSet;
+        if (style_.lit && skipping_.lights) {
+            const Box& box = item.mesh->bounds;
+            const glm::dvec3 center(viewFromObject * glm::dvec4((box.min + box.max) * 0.5, 1.0));
+            const glm::dvec3 half = (box.max - box.min) * 0.5;
+            const double radius =
+                glm::length(glm::dvec3(glm::length(glm::dvec3(viewFromObject[0])) * half.x,
+                                       glm::length(glm::dvec3(viewFromObject[1])) * half.y,
+                                       glm::length(glm::dvec3(viewFromObject[2])) * half.z));
+            item.lightSet =
+                reached_.reduce(item.lightSet, center, radius * kShear, plan_.stats.lightsSkipped);
+        }
+        item.id = static_cast<std::uint32_t>(firstId) + static_cast<std::uint32_t>(index);
+        if (instance.looks >= 0) {
+            const std::vector<generator::MeshPart>& parts = item.mesh->mesh.parts();
+            for (std::size_t i = 0; i < parts.size(); ++i) {
+                item.firstIndex = parts[i].first;
+                item.indices = parts[i].count;
+                fillPart(item, list, static_cast<std::size_t>(instance.looks) + i, undressed);
+                push(item, model.twoSided);
+            }
+            return;
+        }
+        push(std::move(item), model.twoSided);
+    }
+
+    void push(DrawItem item, bool twoSided) {
+        plan_.stats.triangles += static_cast<std::int64_t>(item.indices / 3);
+        if (twoSided) {
+            DrawItem back = item;
+            back.mirrored = !back.mirrored;
+            back.inside = true;
+            back.normalFromObject = -back.normalFromObject;
+            plan_.stats.triangles += static_cast<std::int64_t>(item.indices / 3);
+            plan_.items.push_back(std::move(back));
+        }
+        plan_.items.push_back(std::move(item));
+    }
+
+    /// True where faces are filled and a pixel can show the surface itself, not its facets or their
+    /// corners' light.
+    bool wantsSurface() const {
+        if (style_.layer != Layer::color) return true;
+        if (style_.lit) return style_.shading == scene::Shading::phong;
+        return style_.shading != scene::Shading::wireframe &&
+               style_.shading != scene::Shading::points && style_.shading != scene::Shading::chess;
+    }
+
+    void fillMaterial(DrawItem& item, const Instance& instance, const InstanceList& list,
+                      const scene::Material& undressed) {
+        const scene::Model& model = *instance.model;
+        const scene::Material& material = model.material ? *model.material : undressed;
+        const double t = options_.timeS;
+        item.diffuse = scene::colorAt(material.diffuse, t);
+        item.ambient = scene::colorAt(material.ambient, t);
+        item.specular = scene::colorAt(material.specular, t);
+        item.emissive = scene::colorAt(material.emissive, t);
+        item.shininess = material.shininess;
+        if (drawsLines() && !model.material) item.diffuse = glm::vec3(1.0F);
+        if (model.texture) return fillTexture(item, *model.texture, list, instance.texture);
+        if (model.material || item.mesh->mesh.colors().empty() || drawsLines()) return;
+        // The mesh's own colours are the material, as bright in ambient light as others are.
+        item.colored = true;
+        item.ambient = ambientOfWhite(undressed);
+        item.diffuse = glm::vec3(1.0F);
+    }
+
+    bool drawsLines() const {
+        return style_.shading == scene::Shading::wireframe ||
+               style_.shading == scene::Shading::points;
+    }
+
+    /// The ambient colour of a white material in the dialect's proportion.
+    static glm::vec3 ambientOfWhite(const scene::Material& undressed) {
+        return undressed.ambient.rgb / undressed.diffuse.rgb;
+    }
+
+    /// The material of one part of a mesh; undressed where its file has none.
+    void fillPart(DrawItem& item, const InstanceList& list, std::size_t look,
+                  const scene::Material& undressed) {
+        const PartLook& part = list.looks[look];
+        const scene::Material& material =
+            part.material != nullptr ? part.material->material : undressed;
+        item.diffuse = material.diffuse.rgb;
+        item.ambient = material.diffuse.rgb * ambientOfWhite(undressed);
+        item.specular = material.specular.rgb;
+        item.emissive = material.emissive.rgb;
+        item.shininess = material.shininess;
+        item.texture = -1;
+        item.uvFrom = glm::vec4(1.0F, 1.0F, 0.0F, 0.0F);
+        if (drawsLines()) item.diffuse = glm::vec3(1.0F);
+        if (part.texture >= 0) fillTexture(item, *part.material->texture, list, part.texture);
+    }
+
+    /// `texture`: index into InstanceList::textures.
+    void fillTexture(DrawItem& item, const scene::Texture& from, const InstanceList& list,
+                     int texture) {
+        if (drawsLines() || style_.layer != Layer::color) return;
+        // Unlit, a texture is its own picture: nothing modulates it.
+        if (!style_.lit) item.diffuse = glm::vec3(1.0F);
+        const generator::Mesh& mesh = item.mesh->mesh;
+        item.mapping = from.mapping;
+        const bool object = item.mapping == scene::Mapping::texgenObject;
+        item.planeS = planeOf(from.planeS, object ? mesh.origin() : glm::dvec3(0.0));
+        item.planeT = planeOf(from.planeT, object ? mesh.origin() : glm::dvec3(0.0));
+        item.uvFrom = glm::vec4(from.scale, from.offset);
+        if (item.mapping == scene::Mapping::mesh && mesh.uvs().empty()) return;
+        item.texture = textureIndex(list, static_cast<std::size_t>(texture));
+    }
+
+    /// A texgen plane for places relative to `origin`. Whole turns of a far offset are taken off:
+    /// beside them a float would lose the rest.
+    static glm::vec4 planeOf(glm::dvec4 plane, const glm::dvec3& origin) {
+        constexpr double kFar = 32.0;
+        plane.w += glm::dot(glm::dvec3(plane), origin);
+        if (std::abs(plane.w) > kFar) plane.w -= std::floor(plane.w);
+        return glm::vec4(plane);
+    }
+
+    int textureIndex(const InstanceList& list, std::size_t texture) {
+        int& known = textureOf_[texture];
+        if (known < 0) {
+            TextureRef ref = list.textures[texture];
+            ref.filter = options_.filter.value_or(ref.filter);
+            known = addTexture(std::move(ref));
+        }
+        return known;
+    }
+
+    int addTexture(TextureRef ref) {
+        const auto found =
+            std::find_if(plan_.textures.begin(), plan_.textures.end(), [&](const TextureRef& one) {
+                return one.key == ref.key && one.filter == ref.filter && one.cube == ref.cube &&
+                       one.clamp == ref.clamp;
+            });
+        if (found != plan_.textures.end()) return static_cast<int>(found - plan_.textures.begin());
+        plan_.textures.push_back(std::move(ref));
+        return static_cast<int>(plan_.textures.size()) - 1;
+    }
+
+    void addLines(const InstanceList& list) {
+        if (style_.layer != Layer::color) return;
+        const auto segment = [&](const glm::dvec3& a, const glm::dvec3& b, const glm::vec3& color) {
+            plan_.lines.push_back({glm::vec3(plan_.view.eyeFromWorld(a)), color});
+            plan_.lines.push_back({glm::vec3(plan_.view.eyeFromWorld(b)), color});
+        };
+        if (options_.axes.value_or(scene_.settings.axes.value_or(false)))
+            for (int i = 0; i < 3; ++i) {
+                glm::dvec3 end(0.0);
+                end[i] = kAxisLength;
+                glm::vec3 color(0.0F);
+                color[i] = 1.0F;
+                segment(-end, end, color);
+            }
+        for (const PlacedCurve& curve : list.curves)
+            for (std::size_t i = 0; i < curve.points.size(); ++i)
+                segment(curve.points[i], curve.points[(i + 1) % curve.points.size()],
+                        glm::vec3(1.0F));
+        if (options_.focus) {
+            // One fiftieth of the distance: as large at any zoom.
+            const double half = glm::length(plan_.camera.eye - plan_.camera.target) / 100.0;
+            for (int i = 0; i < 8; ++i)
+                for (int axis = 0; axis < 3; ++axis) {
+                    if (i & (1 << axis)) continue;
+                    const auto corner = [&](int bits) {
+                        return plan_.camera.target + half * glm::dvec3(bits & 1 ? 1 : -1,
+                                                                       bits & 2 ? 1 : -1,
+                                                                       bits & 4 ? 1 : -1);
+                    };
+                    segment(corner(i), corner(i | (1 << axis)), glm::vec3(1.0F));
+                }
+        }
+    }
+
+    void addBackground() {
+        const Background chosen = chooseBackground(scene_, options_, assets_);
+        style_.background = chosen.color;
+        if (style_.layer != Layer::color) {
+            style_.background = glm::vec4(0.0F, 0.0F, 0.0F, 1.0F);
+            return;
+        }
+        if (!chosen.path.empty()) {
+            TextureRef ref = refOf(chosen.path, assets_);
+            ref.filter = scene::Filter::linear;
+            style_.backgroundTexture = addTexture(std::move(ref));
+        }
+        if (scene_.skybox) {
+            TextureRef ref = refOf(scene_.skybox->path, assets_);
+            ref.cube = true;
+            ref.filter = scene::Filter::linear;
+            ref.where = scene_.skybox->where;
+            style_.skyboxTexture = addTexture(std::move(ref));
+        }
+    }
+
+    const scene::Scene& scene_;
+    const Placed& placed_;
+    const PictureOptions& options_;
+    const scene::Assets& assets_;
+    MeshLibrary& meshes_;
+    const GlFacts& gl_;
+    const Skipping& skipping_;
+    FramePlan plan_;
+    FrameStyle& style_ = plan_.style;
+    double errorPx_ = options_.errorPx.value_or(kDefaultErrorPx);
+    SamplePattern samples_;
+    ReachedLights reached_{plan_.lightSets};
+    std::vector<int> textureOf_;  ///< of an InstanceList, in plan_.textures
+};
+
+}  // namespace
+
+glm::ivec2 pictureSize(const scene::Scene& scene, const PictureOptions& options) {
+    const scene::Window window = scene.window.value_or(scene::Window{kDefaultSide, kDefaultSide});
+    const auto scaled = [&](int side) {
+        return std::max(1, static_cast<int>(std::lround(side * options.scale)));
+    };
+    const glm::ivec2 size(scaled(options.width.value_or(window.width)),
+                          scaled(options.height.value_or(window.height)));
+    if (size.x > kMaxSide || size.y > kMaxSide || std::int64_t{size.x} * size.y > kMaxPixels)
+        failSize(size, kMaxSide);
+    return size;
+}
+
+FramePlan plan(const scene::Scene& scene, const Placed& placed, const PictureOptions& options,
+               const scene::Assets& assets, MeshLibrary& meshes, const GlFacts& gl,
+               const Skipping& skipping) {
+    return Planner(scene, placed, options, assets, meshes, gl, skipping).run();
+}
+
+}  // namespace farol::render

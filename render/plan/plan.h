@@ -1,0 +1,33 @@
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "render/gl_facts.h"
+#include "render/options.h"
+#include "render/plan/frame_plan.h"
+#include "render/plan/instances.h"
+#include "render/plan/mesh_library.h"
+#include "scene/files/assets.h"
+#include "scene/scene.h"
+
+namespace farol::render {
+
+/// Width and height that a picture will have, after scale. Throws Error limit.pixels.
+glm::ivec2 pictureSize(const scene::Scene& scene, const PictureOptions& options);
+
+/// What may be left out of a frame because nothing of it can be seen. All on but in tests, which
+/// show that the picture is the same without.
+struct Skipping {
+    bool outside = true;         ///< what is beyond the view's borders
+    bool betweenSamples = true;  ///< what is too small to be met by a sample of any pixel
+    bool lights = true;          ///< lights that add nothing to a model
+    bool calls = true;           ///< draw calls of models that differ in their place alone
+};
+
+/// Plans one frame of a resolved scene that was placed at options.timeS, for a GL. Throws Error as
+/// Renderer::render does.
+FramePlan plan(const scene::Scene& scene, const Placed& placed, const PictureOptions& options,
+               const scene::Assets& assets, MeshLibrary& meshes, const GlFacts& gl,
+               const Skipping& skipping = {});
+
+}  // namespace farol::render

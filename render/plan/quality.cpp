@@ -1,0 +1,81 @@
+#include "render/plan/quality.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "render/plan/plan.h"
+
+namespace farol::render {
+namespace {
+
+struct SampleCost {
+    int samples;
+    double msPerMegapixel;  ///< of filled pixels
+    double msPerMegatriangle;
+};
+struct Candidate {
+    int samples;
+    double errorPx;
+};
+
+#include "render/plan/quality_front.inc"
+
+const SampleCost& costOf(int samples) {
+    const auto found = std::find_if(kCosts.begin(), kCosts.end(),
+                                    [&](const SampleCost& one) { return one.samples >= samples; });
+    return found == kCosts.end() ? kCosts.back() : *found;
+}
+
+void count(const InstanceList& list, FrameLoad& load) {
+    for (const Instance& one : list.instances)
+        if (one.open)
+            load.openModels += 1.0;
+        else
+            load.writtenTriangles += static_cast<double>(one.mesh->mesh.triangles());
+    load.lights += static_cast<double>(list.lights.size());
+}
+
+}  // namespace
+
+double expectedMs(const FrameLoad& load, int samples, double errorPx) {
+    const SampleCost& cost = costOf(samples);
+    // A shape of r px has about r / error triangles, and r is about the root of pixels / models.
+    const double triangles =
+        load.writtenTriangles + kTrianglesOpen * std::sqrt(load.pixels * load.openModels) / errorPx;
+    return kFixedMs +
+           1e-6 * load.pixels * cost.msPerMegapixel *
+               (1.0 + kPerLight * std::max(0.0, load.lights - 1.0)) +
+           1e-6 * triangles * cost.msPerMegatriangle;
+}
+
+Quality chooseQuality(double budgetMs, const FrameLoad& load, std::optional<int> samples,
+                      std::optional<double> errorPx) {
+    Quality chosen;
+    for (const Candidate& one : kFront) {  // best first
+        chosen.samples = samples.value_or(one.samples);
+        chosen.errorPx = errorPx.value_or(one.errorPx);
+        chosen.expectedMs = expectedMs(load, chosen.samples, chosen.errorPx);
+        chosen.within = chosen.expectedMs <= budgetMs;
+        if (chosen.within) break;
+    }
+    return chosen;
+}
+
+std::optional<Quality> resolveBudget(PictureOptions& options, const scene::Scene& scene,
+                                     const Placed& placed) {
+    if (!options.budgetMs) return std::nullopt;
+    const glm::ivec2 size = pictureSize(scene, options);
+    FrameLoad load;
+    load.pixels = static_cast<double>(size.x) * size.y;
+    count(placed.scene, load);
+    if (placed.entity) count(*placed.entity, load);
+    const Quality chosen =
+        chooseQuality(*options.budgetMs, load,
+                      options.samples ? options.samples : scene.settings.samples, options.errorPx);
+    options.samples = chosen.samples;
+    options.errorPx = chosen.errorPx;
+    return chosen;
+}
+
+}  // namespace farol::render

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <optional>
+
+#include "render/options.h"
+#include "render/plan/instances.h"
+#include "render/plan/report.h"
+#include "scene/scene.h"
+
+/// `budget_ms`: how fine a picture may be for a given time, resolved without any clock, so that
+/// the same request gives the same bytes. Costs and order come from measurements that ship with
+/// the build (quality_front.inc, written by `scripts/bench front`): a millisecond is one of the
+/// machine that they were taken on.
+namespace farol::render {
+
+/// What the cost of a frame is told from.
+struct FrameLoad {
+    double pixels = 0.0;            ///< of the picture
+    double openModels = 0.0;        ///< whose divisions the renderer chooses
+    double writtenTriangles = 0.0;  ///< of the others
+    double lights = 0.0;
+};
+
+/// Expected time of a frame, ms; `samples` 1, 2, 4, 8 or 16.
+double expectedMs(const FrameLoad& load, int samples, double errorPx);
+
+/// The best of the front that `budgetMs` allows, else its cheapest. What is given stays as it is. A
+/// larger budget never gives a worse one: samples and error are chosen along one order.
+Quality chooseQuality(double budgetMs, const FrameLoad& load, std::optional<int> samples,
+                      std::optional<double> errorPx);
+
+/// Fills in what options.budgetMs decides and neither the request nor the scene says; nothing
+/// without a budget.
+std::optional<Quality> resolveBudget(PictureOptions& options, const scene::Scene& scene,
+                                     const Placed& placed);
+
+}  // namespace farol::render

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+
+#include "render/options.h"
+
+/// Reports that travel with an image about its plan.
+namespace farol::render {
+
+/// What was drawn and what was skipped.
+struct Stats {
+    int instances = 0;  ///< models, copies of scattered groups counted
+    int culled = 0;     ///< of them not drawn: outside the view, or without any surface
+    int drawCalls = 0, textures = 0, lights = 0;
+    std::int64_t triangles = 0;
+    int culledGroups = 0;     ///< groups told to be outside at once, without a look at their models
+    int betweenSamples = 0;   ///< models too small to be met by a sample of any pixel
+    int texturesSkipped = 0;  ///< pictures that only models sample which are not drawn
+    std::int64_t lightsSkipped = 0;  ///< for each model: lights that add nothing to it
+};
+
+/// What a budget chose (PictureOptions::budgetMs), and the time that it is expected to take.
+struct Quality {
+    int samples = 4;
+    double errorPx = kDefaultErrorPx;
+    double expectedMs = 0.0;
+    bool within =
+        false;  ///< false: even the cheapest that may be chosen costs more than the budget
+};
+
+}  // namespace farol::render

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "scene/files/assets.h"
+#include "scene/scene.h"
+
+namespace farol::render {
+
+/// A picture that draws sample: an asset or a chess board. `key` names its content.
+struct TextureRef {
+    std::string key, path;
+    std::optional<scene::Chess> chess;
+    bool cube = false;   ///< a skybox's cross
+    bool clamp = false;  ///< its edge goes on beyond it
+    scene::Filter filter = scene::Filter::mipmap;
+    Location where;
+};
+
+/// The picture of a model's texture, with the filter it asks for itself.
+TextureRef refOf(const scene::Texture& texture, const scene::Assets& assets);
+/// The picture in a file of the assets.
+TextureRef refOf(const std::string& path, const scene::Assets& assets);
+
+}  // namespace farol::render

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scene/files/assets.h"
+#include "scene/files/bundle.h"
+#include "scene/files/entry_reader.h"
+
+namespace farol::scene {
+
+/// True for a name that ends like an archive's: zip, tar, gz, tgz, 7z, rar.
+bool isArchiveName(std::string_view path);
+
+/// The files of a zip (stored or deflated), tar, tar.gz, 7z or rar. Entries are listed first and
+/// read when they are asked for: of a whole project only what a scene needs is unpacked. A folder
+/// that holds everything is left out of the paths; what isClutter names is not listed. Archives in
+/// the archive, two deep, are folders of their name: "a.zip/scene.xml".
+/// Bounded before memory is taken: entries listed (kMaxListed), bytes unpacked to reach an entry,
+/// and bytes used. `read` throws Error limit.bundle, bundle.damaged, bundle.entry (packed by a
+/// method that is not read), bundle.path (a name twice with different bytes). Thread-safe.
+class ArchiveAssets final : public Assets {
+  public:
+    /// Throws Error bundle.damaged, bundle.path (absolute or with ".."), bundle.entry (a link, a
+    /// device, encrypted), limit.bundle.
+    explicit ArchiveAssets(std::shared_ptr<const std::string> bytes);
+    std::vector<std::string> list() const override;
+    bool has(const std::string& path) const override;
+    std::optional<std::string> read(const std::string& path) const override;
+    std::optional<std::uint64_t> size(const std::string& path) const override;
+    void prefetch(const std::vector<std::string>& paths) const override;
+    std::string version(const std::string& path) const override;
+    /// The most that it may hold in memory, bytes: itself and what may be read of it.
+    std::size_t maxBytes() const { return packed_ + allowed_; }
+    /// Infos about archives in the archive that were left closed.
+    const Diagnostics& findings() const { return findings_; }
+
+  private:
+    struct File {
+        std::shared_ptr<const std::string> archive;  ///< that holds it
+        std::string name;                            ///< in there
+        std::uint64_t size = 0;                      ///< as it says
+    };
+    void open(std::shared_ptr<const std::string> bytes, const std::string& prefix, int depth);
+    void note(Message text);
+    void stripTop();
+    void load(const std::vector<std::string>& paths) const;
+
+    std::string digest_;
+    std::size_t packed_, allowed_, entriesLeft_, nestedLeft_;
+    std::map<std::string, File> files_;
+    Diagnostics findings_;
+    mutable std::mutex mutex_;
+    mutable std::map<std::string, std::string> loaded_;
+    mutable std::size_t used_ = 0;
+};
+
+/// The document of an archive and what its scenes need (neededFiles). Throws as ArchiveAssets,
+/// mainOf and readFiles do.
+Bundle readArchive(std::string_view bytes);
+
+}  // namespace farol::scene

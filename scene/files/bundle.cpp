@@ -1,0 +1,203 @@
+#include "scene/files/bundle.h"
+
+#include <algorithm>
+#include <iterator>
+#include <set>
+#include <span>
+#include <vector>
+
+#include "core/digest.h"
+#include "core/text.h"
+#include "scene/files/spelling.h"
+#include "scene/messages.h"
+
+namespace farol::scene {
+namespace {
+
+constexpr std::size_t kShownCandidates = 5;
+
+constexpr std::size_t kMaxDocuments = 1'000;
+constexpr std::size_t kMaxDocumentBytes = std::size_t{1} << 20U;
+constexpr std::size_t kMeshHead = std::size_t{64} << 10U;  // of a mesh, where libraries are named
+
+bool isDocument(std::string_view path) { return fileEnding(path) == "xml" && path.size() > 4; }
+
+/// The documents among the files that are small enough to be scenes, in the order of the list.
+std::vector<std::string> documentsOf(const Assets& files, const std::vector<std::string>& paths) {
+    std::vector<std::string> documents;
+    for (const std::string& path : paths)
+        if (isDocument(path) && documents.size() < kMaxDocuments &&
+            files.size(path).value_or(0) <= kMaxDocumentBytes)
+            documents.push_back(path);
+    files.prefetch(documents);
+    return documents;
+}
+
+/// Whether the first element of the text is the root of a scene. Looks at its beginning only.
+bool beginsAsScene(std::string_view text) {
+    static constexpr std::string_view kRoots[] = {"world", "scene", "xmls", "includes"};
+    for (std::size_t at = text.find('<'); at != std::string_view::npos; at = text.find('<', at)) {
+        text.remove_prefix(at + 1);
+        at = 0;
+        if (text.starts_with("!--")) {
+            const std::size_t end = text.find("-->");
+            if (end == std::string_view::npos) return false;
+            text.remove_prefix(end);
+        } else if (!text.empty() && text[0] != '?' && text[0] != '!') {
+            const std::string_view name = text.substr(0, text.find_first_of(" \t\r\n/>"));
+            return std::any_of(std::begin(kRoots), std::end(kRoots),
+                               [&](std::string_view root) { return sameWord(root, name); });
+        }
+    }
+    return false;
+}
+
+/// Adds the base names that a text may mean: what stands in quotes, and each word.
+void addNames(std::string_view text, std::set<std::string>& names) {
+    constexpr std::size_t kLongest = 1024;
+    const auto add = [&](std::string_view word) {
+        word = trimmed(word);
+        while (word.ends_with('/')) word.remove_suffix(1);  // of an empty tag
+        if (word.empty() || word.size() > kLongest) return;
+        names.insert(spelling::folded(baseName(word)));
+        names.insert(spelling::folded(baseName(spelling::percentDecoded(word))));
+        // "bezier_comet_10.3d" means comet.patch.
+        for (const std::string_view part : split(baseName(word), "_"))
+            names.insert(spelling::folded(part) + ".patch");
+    };
+    for (const std::string_view word : split(text, " \t\r\n\"'<>=,;")) add(word);
+    for (const std::string_view line : split(text, "\"'\r\n")) add(line);
+}
+
+bool isMesh(const std::string& path) {
+    static constexpr std::string_view kEndings[] = {".3d",  ".3db", ".obj", ".ply",
+                                                    ".tri", ".stl", ".off", ".patch"};
+    return std::any_of(std::begin(kEndings), std::end(kEndings), [&](std::string_view ending) {
+        return path.size() > ending.size() &&
+               sameWord(std::string_view(path).substr(path.size() - ending.size()), ending);
+    });
+}
+
+}  // namespace
+
+std::size_t Bundle::bytes() const {
+    std::size_t sum = 0;
+    for (const auto& [path, content] : files) sum += path.size() + content.size();
+    return sum;
+}
+
+std::string mainOf(const Assets& files) {
+    if (files.has("scene.xml")) return "scene.xml";
+    const std::vector<std::string> paths = files.list();
+    std::vector<std::string> candidates;
+    std::copy_if(paths.begin(), paths.end(), std::back_inserter(candidates), isDocument);
+    if (candidates.size() > 1) {
+        std::vector<std::string> scenes, called;
+        for (const std::string& path : documentsOf(files, paths))
+            if (beginsAsScene(files.read(path).value_or(""))) {
+                scenes.push_back(path);
+                if (sameWord(baseName(path), "scene.xml")) called.push_back(path);
+            }
+        const auto depthOf = [](const std::string& path) {
+            return std::count(path.begin(), path.end(), '/');
+        };
+        std::stable_sort(called.begin(), called.end(),
+                         [&](const auto& a, const auto& b) { return depthOf(a) < depthOf(b); });
+        if (called.size() == 1 || (called.size() > 1 && depthOf(called[0]) < depthOf(called[1])))
+            return called.front();
+        if (!scenes.empty()) candidates = std::move(scenes);
+    }
+    if (candidates.size() == 1) return candidates.front();
+    if (candidates.empty()) {
+        std::string message =
+            "There is no scene among the files: no part named \"scene\", no scene.xml and no other "
+            ".xml file.";
+        const auto mesh = std::find_if(paths.begin(), paths.end(), isMesh);
+        // A word of a document cannot hold quotes, and a name with them is better not shown as
+        // code.
+        if (mesh != paths.end() && mesh->find_first_of("\"<&") == std::string::npos)
+            message +=
+                " A mesh is drawn by a scene that names it: add a scene.xml with <world><group>"
+                "<models><model file=\"" +
+                *mesh + "\"/></models></group></world>.";
+        else
+            message += " Add a scene.xml that names them.";
+        throw Error("bundle.no-scene", message, {}, "scene");
+    }
+    const std::span<const std::string> named(candidates.data(),
+                                             std::min(candidates.size(), kShownCandidates));
+    std::string names = joined(named, ", ", quoted);
+    if (candidates.size() > kShownCandidates) names += " and more";
+    throw Error("bundle.which-scene",
+                "Which file is the scene? " + names +
+                    " could be; call one scene.xml, or send it as the part \"scene\".",
+                {}, "scene");
+}
+
+namespace {
+
+std::vector<std::string> namedFiles(const Assets& files, const std::vector<std::string>& paths) {
+    const std::vector<std::string> documents = documentsOf(files, paths);
+    std::set<std::string> names, taken(documents.begin(), documents.end());
+    for (const std::string& path : documents) addNames(files.read(path).value_or(""), names);
+    // Meshes name libraries, which name pictures.
+    for (int round = 0; round < 3; ++round) {
+        std::vector<std::string> fresh;
+        for (const std::string& path : paths) {
+            if (isDocument(path) || taken.count(path) != 0) continue;
+            bool isNamed = names.count(spelling::folded(baseName(path))) != 0;
+            for (const std::string& other : spelling::otherReadings(baseName(path)))
+                isNamed = isNamed || names.count(spelling::folded(other)) != 0;
+            if (isNamed) fresh.push_back(path);
+        }
+        taken.insert(fresh.begin(), fresh.end());
+        std::erase_if(fresh, [](const std::string& path) {
+            return fileEnding(path) != "obj" && fileEnding(path) != "mtl";
+        });
+        if (fresh.empty()) break;
+        files.prefetch(fresh);
+        for (const std::string& path : fresh)
+            addNames(files.read(path).value_or("").substr(0, kMeshHead), names);
+    }
+    return {taken.begin(), taken.end()};
+}
+
+}  // namespace
+
+std::vector<std::string> neededFiles(const Assets& files, const std::vector<std::string>& paths,
+                                     std::size_t mostBytes) {
+    std::uint64_t sum = 0;
+    for (const std::string& path : paths) sum += files.size(path).value_or(0);
+    if (paths.size() <= kMaxBundleFiles && sum <= mostBytes) return paths;
+    return namedFiles(files, paths);
+}
+
+std::map<std::string, std::string> readFiles(const Assets& files,
+                                             const std::vector<std::string>& paths,
+                                             std::size_t mostBytes) {
+    files.prefetch(paths);
+    std::map<std::string, std::string> read;
+    std::uint64_t sum = 0;
+    for (const std::string& path : paths) {
+        sum += files.size(path).value_or(0);
+        if (sum > mostBytes)
+            throw Error(message<"limit.bundle/needed">("most"_arg = mostBytes >> 20U));
+        auto content = files.read(path);
+        if (!content)
+            throw Error("asset.unreadable", "cannot be read; check its permissions", {path, 0, 0});
+        read.emplace(path, std::move(*content));
+    }
+    return read;
+}
+
+std::string digestOf(const Bundle& bundle) {
+    std::string all = std::to_string(bundle.main.size()) + ":" + bundle.main;
+    for (const auto& [path, content] : bundle.files)
+        all.append(std::to_string(path.size()))
+            .append(":")
+            .append(path)
+            .append(contentDigest(content));
+    return contentDigest(all);
+}
+
+}  // namespace farol::scene

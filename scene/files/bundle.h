@@ -1,0 +1,46 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+#include "scene/files/assets.h"
+
+namespace farol::scene {
+
+/// A document and the files that it may name, by their paths (isSafePath).
+struct Bundle {
+    std::string main;  ///< the document's path
+    std::map<std::string, std::string> files;
+
+    std::size_t bytes() const;
+};
+
+/// Files up to here are kept whole, with those that no document names.
+inline constexpr std::size_t kMaxBundleFiles = 256;
+/// Bound on the bytes of a bundle's files.
+inline constexpr std::size_t kMaxBundleBytes = std::size_t{64} << 20U;
+
+/// Which of the files is the scene: scene.xml at the top, else the only .xml file; of several the
+/// only one that begins as a scene does (<world>, <scene>, <xmls>, <includes>), else the highest
+/// of those that are called scene.xml. Throws Error bundle.no-scene, or bundle.which-scene with the
+/// candidates' names.
+std::string mainOf(const Assets& files);
+
+/// What scenes need of the files `paths`: all of them where there are kMaxBundleFiles and
+/// `mostBytes` at most; of a whole project the documents (.xml, up to 1 MiB) and the files whose
+/// base name stands in one of them or, of material libraries and their pictures, in a mesh or
+/// library that is named.
+std::vector<std::string> neededFiles(const Assets& files, const std::vector<std::string>& paths,
+                                     std::size_t mostBytes);
+
+/// The bytes of those files. Throws Error limit.bundle over `mostBytes`, and as Assets::read does.
+std::map<std::string, std::string> readFiles(const Assets& files,
+                                             const std::vector<std::string>& paths,
+                                             std::size_t mostBytes);
+
+/// Names the bundle's content, however it was sent: a contentDigest of every path and file.
+std::string digestOf(const Bundle& bundle);
+
+}  // namespace farol::scene

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+
+namespace farol::scene {
+
+/// True for the first bytes of a zip, tar, gzip, 7z or rar file. Looks at nothing else.
+bool isArchive(std::string_view bytes);
+
+/// Bytes that the files that are used of an archive of `packed` bytes may have together.
+std::size_t maxUnpackedBytes(std::size_t packed);
+
+/// Throws Error limit.bundle: over Assets::kMaxListed entries.
+[[noreturn]] void tooManyEntries();
+
+/// The files of an archive one by one: zip (stored or deflated), tar, tar.gz, 7z, rar. Folders and
+/// what isClutter names are left out. Bounded before memory is taken: entries, and bytes unpacked
+/// to reach an entry. Throws Error bundle.damaged, bundle.path (absolute or with ".."),
+/// bundle.entry (a link, a device, encrypted; when it is read, packed by another method),
+/// limit.bundle.
+class EntryReader {
+  public:
+    /// The bytes must outlive it.
+    explicit EntryReader(std::string_view bytes);
+    ~EntryReader();
+    EntryReader(const EntryReader&) = delete;
+    EntryReader& operator=(const EntryReader&) = delete;
+    /// Goes on to the next file; false at the end. What was not read of the last one is skipped.
+    bool next();
+    const std::string& path() const { return path_; }
+    std::uint64_t size() const { return size_; }  ///< as the archive says; 0 where it does not
+    /// The file's bytes. Throws Error limit.bundle where there are more than `left`.
+    std::string content(std::size_t left);
+
+  private:
+    struct Open;
+    [[noreturn]] void fail() const;
+
+    std::size_t packed_, passable_, entries_ = 0;
+    std::uint64_t before_ = 0, size_ = 0;  ///< bytes of the entries before this one; of this one
+    bool isSolid_ = false;                 ///< 7z and rar files may be
+    std::string path_;
+    std::unique_ptr<Open> open_;
+};
+
+}  // namespace farol::scene

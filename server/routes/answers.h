@@ -1,0 +1,21 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "server/context.h"
+#include "server/router.h"
+
+/// Answers that several routes give.
+namespace farol::server {
+
+/// JSON, indented.
+http::Response jsonResponse(const nlohmann::json& value);
+/// JSON that nobody keeps: the answer to a body that was sent.
+http::Response freshJson(const nlohmann::json& value);
+/// The body with its tag, or 304.
+http::Response tagged(const Call& call, std::string body, const std::string& type);
+/// Throws Error option.unknown where there is any parameter.
+void refuseParameters(const Call& call);
+
+}  // namespace farol::server

@@ -1,0 +1,77 @@
+#include "worker/tasks/grade.h"
+
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "core/base64.h"
+#include "core/text.h"
+#include "grade/rubric/grader.h"
+#include "server/messages.h"
+#include "server/request/parameters.h"
+#include "server/request/upload.h"
+#include "server/routes/answers.h"
+#include "server/routes/subject.h"
+
+namespace farol::server {
+namespace {
+
+worker::GradeTask::Request readJob(std::vector<Part> parts) {
+    worker::GradeTask::Request job;
+    std::optional<std::string> rubric;
+    bool submission = false, reference = false;
+    for (Part& part : parts) {
+        const std::string name = part.name;
+        const bool twice = (name == "submission" && submission) ||
+                           (name == "reference" && reference) || (name == "rubric" && rubric);
+        if (twice) throw Error(message<"http.multipart/repeated">("name"_arg = name), {}, name);
+        if (part.content.empty())
+            throw Error(message<"http.multipart/empty">("name"_arg = name), {}, shown(name));
+        if (name == "submission") {
+            submission = true;
+            job.submission = subjectOf(std::move(part));
+        } else if (name == "reference") {
+            reference = true;
+            job.reference = subjectOf(std::move(part));
+        } else if (name == "rubric") {
+            rubric = std::move(part.content);
+        } else {
+            throw Error(message<"http.multipart/unknown">(
+                            "name"_arg = name, "known"_arg = "submission, reference and rubric"),
+                        {}, shown(name));
+        }
+    }
+    if (!submission) throw Error(message<"grade.no-submission">(), {}, "submission");
+    if (!reference) throw Error(message<"grade.no-reference">(), {}, "reference");
+    job.rubric = worker::packRubric(rubric ? grade::readRubric(*rubric, "rubric.json")
+                                           : grade::defaultRubric());
+    return job;
+}
+
+}  // namespace
+
+http::Response postGrade(Context& context, const Call& call) {
+    const Parameters wanted =
+        readParameters(call.request.query, {false, false, {"pictures", "missing"}, {}});
+    const bool pictures = wholeNumber("pictures", wanted.ownValue("pictures", "1"), 0, 1) == 1;
+    render::PictureOptions options;
+    render::applyOption(options, "missing", wanted.ownValue("missing", "placeholder"));
+    worker::GradeTask::Request job =
+        readJob(readParts(call.request, call.body, context.options.maxBodyBytes));
+    job.submission.job.options.missing = options.missing;
+    const auto done = context.backend.run<worker::GradeTask>(job);
+    nlohmann::json body = parseJson(done.result.json, grade::kGradeJson);
+    if (pictures && body.contains("views")) {
+        // Two pictures a view, in its order: the submission and the difference.
+        std::size_t at = 0;
+        for (nlohmann::json& view : body["views"]) {
+            for (const char* name : {"picture", "heat"}) {
+                if (at >= done.result.pictures.size()) break;
+                const std::string& bytes = done.result.pictures[at++];
+                if (!bytes.empty()) view[name] = "data:image/jpeg;base64," + base64(bytes);
+            }
+        }
+    }
+    return freshJson(body);
+}
+
+}  // namespace farol::server

@@ -1,0 +1,206 @@
+#include "tests/support/ray_caster/tracer.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <functional>
+#include <thread>
+
+#include "tests/support/ray_caster/angles.h"
+
+namespace farol::reference {
+namespace {
+
+struct Place {
+    glm::dvec2 uv, dx, dy;
+};
+
+/// Texture coordinates and their change a pixel to the right and down: the neighbouring rays meet
+/// the tangent plane there.
+Place placeOf(const World& world, const Instance& one, const Surface& s,
+              const glm::dvec3& direction, double depth) {
+    glm::dvec3 gradU = s.gradU, gradV = s.gradV;
+    Place place;
+    place.uv = s.uv;
+    switch (one.mapping.mapping) {
+        case scene::Mapping::mesh:
+            break;
+        case scene::Mapping::sphere:
+            // u from -X by way of -Z, as atan2(z, x) grows.
+            place.uv = {0.5 + std::atan2(s.point.z, s.point.x) / (2.0 * std::numbers::pi),
+                        latitudeOf(s.point)};
+            gradU = -turnGradient(s.point);
+            gradV = latitudeGradient(s.point);
+            break;
+        case scene::Mapping::texgenObject:
+            place.uv = {glm::dot(one.mapping.planeS, glm::dvec4(s.point, 1.0)),
+                        glm::dot(one.mapping.planeT, glm::dvec4(s.point, 1.0))};
+            gradU = glm::dvec3(one.mapping.planeS);
+            gradV = glm::dvec3(one.mapping.planeT);
+            break;
+        case scene::Mapping::texgenEye: {
+            const glm::dvec4 eye(depth * direction, 1.0);
+            place.uv = {glm::dot(one.mapping.planeS, eye), glm::dot(one.mapping.planeT, eye)};
+            gradU = glm::transpose(one.viewFromObject) * glm::dvec3(one.mapping.planeS);
+            gradV = glm::transpose(one.viewFromObject) * glm::dvec3(one.mapping.planeT);
+            break;
+        }
+    }
+    const double pixel = 2.0 * world.tanHalf / world.height;
+    const glm::dvec3 along = one.objectFromView * direction;
+    const auto change = [&](const glm::dvec3& step) {
+        const glm::dvec3 aside = one.objectFromView * step;
+        const glm::dvec3 moved =
+            depth * (aside - along * (glm::dot(s.normal, aside) / glm::dot(s.normal, along)));
+        return glm::dvec2(glm::dot(gradU, moved), glm::dot(gradV, moved));
+    };
+    place.dx = change({pixel, 0.0, 0.0});
+    place.dy = change({0.0, -pixel, 0.0});
+    return place;
+}
+
+void color(const World& world, const Instance& one, const Ray& ray, const Hit& hit,
+           const glm::dvec3& direction, Sample& sample) {
+    const Surface s = one.shape->surface(ray, hit);
+    const glm::dmat3 normalMatrix = glm::transpose(one.objectFromView);
+    const double side = glm::dot(s.normal, ray.direction) > 0.0 ? -1.0 : 1.0;  // a back, shown
+    const glm::dvec3 inner = s.shadingNormal == glm::dvec3(0.0) ? s.normal : s.shadingNormal;
+    sample.point = hit.t * direction;
+    sample.normal = glm::normalize(side * (normalMatrix * s.normal));
+    sample.id = one.id;
+    sample.depth = hit.t;
+    sample.part = hit.face * 2 + (side < 0.0 ? 1 : 0);
+    glm::dvec3 texture(1.0);
+    if (one.texture) {
+        const Place place = placeOf(world, one, s, direction, hit.t);
+        texture = one.texture->sample(place.uv, place.dx, place.dy, one.filter);
+        if (one.filter == scene::Filter::nearest)
+            sample.texel = glm::floor(place.uv * glm::dvec2(one.texture->size(0)));
+        constexpr double kJump = 0.125;  // as round the poles, where no filter is right
+        sample.coarse = glm::length(place.dx) > kJump || glm::length(place.dy) > kJump;
+    }
+    if (one.unlit) {
+        sample.color = one.dress.diffuse * texture;
+        return;
+    }
+    for (const EyeLight& light : one.lights)
+        sample.part = 2 * (sample.part % (1 << 20)) + (inCone(light, sample.point) ? 1 : 0);
+    sample.color = shade(world.rules, one.dress, one.lights, sample.point,
+                         glm::normalize(side * (normalMatrix * inner)), texture);
+}
+
+/// Runs `row` for all rows; each writes only what is its own.
+void eachRow(int height, int threads, const std::function<void(int)>& row) {
+    std::atomic<int> next{0};
+    const auto work = [&] {
+        for (int y = next++; y < height; y = next++) row(y);
+    };
+    std::vector<std::thread> others;
+    for (int i = 1; i < threads; ++i) others.emplace_back(work);
+    work();
+    for (std::thread& one : others) one.join();
+}
+
+/// True where the step between the points leaves either tangent plane by more than 30 degrees, or
+/// the planes differ by as much: another sheet, or a crease.
+bool bends(const Sample& a, const Sample& b) {
+    const glm::dvec3 step = b.point - a.point;
+    const double rise =
+        std::max(std::abs(glm::dot(step, a.normal)), std::abs(glm::dot(step, b.normal)));
+    return rise > 0.5 * glm::length(step) || glm::dot(a.normal, b.normal) < 0.866;
+}
+
+std::uint8_t flagsOf(const Picture& picture, const std::vector<Sample>& samples, int x, int y) {
+    const Sample& here = samples[picture.at(x, y)];
+    unsigned flags = here.coarse ? kCrease : kInterior;
+    for (int j = std::max(0, y - 1); j <= std::min(picture.height - 1, y + 1); ++j)
+        for (int i = std::max(0, x - 1); i <= std::min(picture.width - 1, x + 1); ++i) {
+            const Sample& there = samples[picture.at(i, j)];
+            if (there.id != here.id)
+                flags |= kSilhouette;
+            else if (here.id != 0 && (i != x || j != y) &&
+                     (there.part != here.part || there.texel != here.texel || bends(here, there)))
+                flags |= kCrease;
+        }
+    return static_cast<std::uint8_t>(flags);
+}
+
+glm::dvec3 meanOf(const World& world, int x, int y, int n) {
+    glm::dvec3 sum(0.0);
+    for (int j = 0; j < n; ++j)
+        for (int i = 0; i < n; ++i) sum += trace(world, x + (i + 0.5) / n, y + (j + 0.5) / n).color;
+    return sum / static_cast<double>(n * n);
+}
+
+}  // namespace
+
+Sample trace(const World& world, double x, double y) {
+    Sample sample;
+    sample.color = world.background;
+    const glm::dvec3 direction = world.direction(x, y);
+    const Instance* seen = nullptr;
+    Ray seenRay{};
+    Hit hit;
+    double far = world.far;
+    for (const Instance& one : world.instances) {
+        if (x < one.pixelMin.x || x > one.pixelMax.x || y < one.pixelMin.y || y > one.pixelMax.y)
+            continue;
+        const Ray ray{-(one.objectFromView * one.originView), one.objectFromView * direction};
+        Nearest nearest(world.near, far, one.twoSided);
+        one.shape->intersect(ray, nearest);
+        if (!nearest.found() || !(nearest.best().t < hit.t)) continue;
+        hit = nearest.best();
+        far = hit.t;
+        seen = &one;
+        seenRay = ray;
+    }
+    if (seen != nullptr) color(world, *seen, seenRay, hit, direction, sample);
+    return sample;
+}
+
+Picture traceCenters(const World& world, int threads) {
+    Picture picture{world.width, world.height, {}, {}, {}, 1, 0.0};
+    const std::size_t count = picture.at(0, world.height);
+    picture.color.resize(count);
+    picture.id.resize(count);
+    picture.edge.resize(count);
+    std::vector<Sample> samples(count);
+    eachRow(world.height, threads, [&](int y) {
+        for (int x = 0; x < world.width; ++x) {
+            Sample& sample = samples[picture.at(x, y)];
+            sample = trace(world, x + 0.5, y + 0.5);
+            picture.color[picture.at(x, y)] = sample.color;
+            picture.id[picture.at(x, y)] = sample.id;
+        }
+    });
+    for (int y = 0; y < world.height; ++y)
+        for (int x = 0; x < world.width; ++x)
+            picture.edge[picture.at(x, y)] = flagsOf(picture, samples, x, y);
+    return picture;
+}
+
+Picture traceAreas(const World& world, int cap, int threads) {
+    Picture picture = traceCenters(world, threads);
+    constexpr double kLevel = 1.0 / 255.0;
+    std::vector<double> change(picture.color.size(), std::numeric_limits<double>::infinity());
+    for (int n = 2; n <= cap; n *= 2) {
+        eachRow(world.height, threads, [&](int y) {
+            for (int x = 0; x < world.width; ++x) {
+                const std::size_t at = picture.at(x, y);
+                // The first doubling is not trusted.
+                if (n > 4 && picture.edge[at] == kInterior && change[at] < 0.05 * kLevel) continue;
+                const glm::dvec3 mean = meanOf(world, x, y, n);
+                change[at] = glm::length(mean - picture.color[at]) / std::sqrt(3.0);
+                picture.color[at] = mean;
+            }
+        });
+        double sum = 0.0;
+        for (const double one : change) sum += one * one;
+        picture.side = n;
+        picture.change = std::sqrt(sum / static_cast<double>(change.size()));
+        if (n > 2 && picture.change < 0.1 * kLevel) break;
+    }
+    return picture;
+}
+
+}  // namespace farol::reference

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "worker/process.h"
+
+namespace farol::worker {
+
+/// Starts worker processes ahead of need, so that one that is lost or has done its share is
+/// replaced at once by one that can draw already.
+class Nursery {
+  public:
+    struct Options {
+        WorkerOptions worker;
+        int starters = 1;  ///< processes started side by side, 1 or more
+        int spares = 1;    ///< kept ready beyond those that somebody waits for
+    };
+    /// Called for each start that failed, by several threads.
+    using Report = std::function<void(const std::string& fault)>;
+
+    /// Starts nothing yet: begin() does.
+    Nursery(Options options, Report report);
+    ~Nursery();
+    Nursery(const Nursery&) = delete;
+    Nursery& operator=(const Nursery&) = delete;
+
+    /// The first processes are started for so many that will be taken.
+    void begin(int takers);
+    /// A process that can draw; waits for one until `patience` is over, then null. Null at once
+    /// after stop().
+    std::unique_ptr<WorkerProcess> take(std::chrono::milliseconds patience);
+    /// Starts no more and ends those that nobody took. The starters stay until the destructor,
+    /// because a worker dies with the thread that started it.
+    void stop();
+
+  private:
+    void run();
+    bool isWanted() const;
+
+    const Options options_;
+    const Report report_;
+    std::mutex mutex_;
+    std::condition_variable wanted_, ready_;
+    std::deque<std::unique_ptr<WorkerProcess>> processes_;  ///< ready, oldest first
+    int starting_ = 0, waiting_ = 0, expected_ = 0;
+    bool stopping_ = false, ended_ = false;
+    std::vector<std::thread> threads_;
+};
+
+}  // namespace farol::worker

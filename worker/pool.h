@@ -1,0 +1,97 @@
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <future>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "worker/backend.h"
+#include "worker/event_log.h"
+#include "worker/nursery.h"
+#include "worker/quarantine.h"
+#include "worker/queue.h"
+#include "worker/said.h"
+
+namespace farol::worker {
+
+struct PoolOptions {
+    int workers = 1;
+    QueueLimits queue;
+    WorkerOptions worker;
+    int spares = 1;  ///< processes kept ready to take a lost one's place
+    /// A process ends after a job that holds anything a client sent; there are at least as many
+    /// spares as workers then.
+    bool isolatesUploads = false;
+    int recycleAfter = 1'000;  ///< jobs a process does before it is replaced
+    /// Processor time of a worker for one request; 0: twice the deadline, as two cores have.
+    std::chrono::milliseconds cpu{0};
+    std::chrono::seconds quarantine{600};  ///< of requests, and of scenes, that end workers
+};
+
+/// Does all work in sandboxed processes. One that crashes, hangs or has done its share is
+/// replaced; the job it had gets Busy worker.crashed, worker.reply or busy.deadline, or Error
+/// limit.cpu, no other job notices. One whose worker was killed from outside is begun again, up to
+/// three times, then gets Busy worker.killed.
+class WorkerPool final : public Backend {
+  public:
+    /// Starts the workers and waits until one can draw, or has reported why it cannot (which goes
+    /// to the log and is tried again). `log` is called until it is gone.
+    WorkerPool(PoolOptions options, EventLog log);
+    ~WorkerPool() override;
+
+    void expectRoom(const RunOptions& options) const override;
+    BackendState state() const override;
+    BackendFacts facts() const override;
+    std::string version() const override;
+
+    /// Refuses new jobs (Busy), waits for those being worked on and ends the workers.
+    void stop();
+
+  protected:
+    Done<std::any> submit(PackedJob job, const RunOptions& options) override;
+
+  private:
+    struct Slot {
+        std::unique_ptr<WorkerProcess> process;
+        long jobs = 0;                            ///< done by this process
+        bool isSpent = false;                     ///< by an upload's job, when those are isolated
+        std::chrono::nanoseconds cpuWhenIdle{0};  ///< processor time when it was ready for a job
+    };
+    using Queue = JobQueue<Slot>;
+    using Shared = std::shared_future<Done<std::any>>;
+
+    void serveSlot(int index);
+    bool ready(Slot& slot, std::chrono::milliseconds patience);
+    void drop(Slot& slot, const std::string& reason);
+    /// Waits for a worker that does the job, and judges its answer.
+    Done<std::any> ask(PackedJob job, const Turn& turn);
+    Answer askSlot(Slot& slot, const PackedJob& job);
+    void excuse(Slot& slot, const WorkerLost& lost, const JobIdentity& identity);
+    /// Throws what an answer that is not done means to the caller.
+    void judge(Answer& answer) const;
+    Done<std::any> askCounted(PackedJob job, const Turn& turn);
+    void admit(const JobIdentity& identity);
+
+    const PoolOptions options_;
+    EventLog log_;
+    Said said_;
+    Nursery nursery_;
+    Queue queue_;
+    Quarantine quarantine_;
+    mutable std::mutex mutex_;
+    std::condition_variable changed_;
+    bool anyReady_ = false, anyFailed_ = false, stopping_ = false;
+    BackendFacts facts_;
+    std::map<std::string, long> restarts_;
+    std::map<std::string, JobCounts> jobs_;
+    int ready_ = 0;  ///< slots with a process
+    std::map<std::string, Shared> inFlight_;
+    std::atomic<long> coalesced_{0}, retried_{0};
+    std::vector<std::thread> threads_;
+};
+
+}  // namespace farol::worker

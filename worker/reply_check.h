@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+#include <string>
+
+#include "core/bounded_json.h"
+#include "core/error.h"
+#include "render/renderer.h"
+#include "worker/task.h"
+
+/// A worker may have been taken over by what it read: its replies are held against what was asked.
+/// All check functions throw WireError.
+namespace farol::worker {
+
+/// Numbers, diagnostics and titles: what every reply may hold besides its images and files.
+inline constexpr std::uint64_t kBaseBytes = std::uint64_t{4} << 20U;
+inline constexpr std::size_t kMaxDiagnostics = 2'200;  ///< scene/read/findings.cpp keeps 2,000
+/// Entries of the lists that diagnostics are: themselves and their messages' arguments.
+inline constexpr std::size_t kMaxDiagnosticEntries = kMaxDiagnostics * (1 + kMaxArguments);
+
+/// The bounds that every reply has.
+inline constexpr ReplyLimits kBaseLimits{kBaseBytes, kMaxDiagnosticEntries};
+
+/// Throws WireError, whose message ends with `what`, unless `holds`.
+void require(bool holds, const char* what);
+void checkFinite(std::initializer_list<double> values);
+/// Times in ms.
+void checkTimes(std::initializer_list<double> times);
+void checkDiagnostics(const Diagnostics& diagnostics);
+/// A refusal blames the input: codes of the HTTP side are not a worker's to give.
+void checkRefusal(const Diagnostics& diagnostics);
+void checkFaultMessage(const std::string& message);
+/// An object within the limits.
+void checkJson(const std::string& text, const JsonLimits& limits, const char* what);
+
+/// Bounds of an image that was requested with these options.
+struct ImageBounds : ReplyLimits {
+    int maxWidth = 0, maxHeight = 0;  ///< px
+    std::uint64_t imageBytes = 0;     ///< of one encoded image
+    image::Format format = image::Format::png;
+};
+/// Of one image, limits included.
+ImageBounds imageBoundsOf(const render::PictureOptions& options);
+std::uint64_t pixelsOf(const ImageBounds& bounds);
+
+/// The largest encoded image of so many pixels.
+std::uint64_t maxImageBytes(image::Format format, std::uint64_t pixels);
+
+/// All but the format of the bytes and the content type.
+void checkPicture(const render::Picture& picture, const ImageBounds& bounds);
+/// A picture in one image; its content type becomes that of the format.
+void acceptImage(render::Picture& picture, const ImageBounds& bounds);
+
+}  // namespace farol::worker

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "core/lru_cache.h"
+#include "grade/rubric/grader.h"
+#include "render/renderer.h"
+
+namespace farol::worker {
+
+/// A rubric that was read, as it travels. Workers read it again once for each digest.
+struct PackedRubric {
+    std::string json;    ///< grade::writeRubric
+    std::string digest;  ///< of `json`
+};
+PackedRubric packRubric(const grade::Rubric& rubric);
+
+/// State that a worker keeps between jobs.
+struct WorkerState {
+    /// `maxCost`: core-seconds that all frames of a job may cost together (render/plan/cost.h); 0:
+    /// no bound. Throws std::runtime_error where there is no GL.
+    explicit WorkerState(double maxCost);
+
+    const grade::Rubric& rubric(const PackedRubric& packed);
+
+    render::Renderer renderer;
+    grade::Grader grader{renderer};
+    const double maxCost;
+
+  private:
+    LruCache<std::string, grade::Rubric> rubrics_;
+};
+
+}  // namespace farol::worker

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <concepts>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace farol::worker {
+
+struct WorkerState;
+
+/// Facts about a job that the parent has before it runs.
+struct JobFacts {
+    /// Names document and files: a worker that has them warm is found by it, and a quarantine
+    /// closes it. Empty: the job has no scene.
+    std::string scene;
+    bool isUpload = true;  ///< holds something that a client sent, beside options
+};
+
+/// How much of a reply is received at all.
+struct ReplyLimits {
+    std::uint64_t bytes = 0;    ///< of the whole reply
+    std::uint64_t entries = 0;  ///< of all its lists together
+};
+
+/// Properties that most kinds of jobs share; a task that differs declares its own.
+struct TaskTraits {
+    /// Identical jobs in flight share one reply.
+    static constexpr bool kIsShared = false;
+    /// The job has no bound of cost and is never put into quarantine: it says whether a worker
+    /// works.
+    static constexpr bool kIsExempt = false;
+};
+
+/// A kind of job. Its files in worker/tasks/ and a row of worker/tasks/table.cpp are all that it
+/// takes: the members of Request and Reply travel by themselves (worker/fields.h), and the parent
+/// calls it by Backend::run<T>.
+template <typename T>
+concept Task = std::derived_from<T, TaskTraits> &&
+    requires(const typename T::Request& request, typename T::Reply& reply,
+             const typename T::Bounds& bounds, WorkerState& state) {
+    { T::kName } -> std::convertible_to<std::string_view>;
+    /// In a worker. Throws what it throws: an Error blames the request.
+    { T::run(request, state) } -> std::same_as<typename T::Reply>;
+    { T::factsOf(request) } -> std::same_as<JobFacts>;
+    /// Upper bounds of the reply to one request; derived from ReplyLimits.
+    { T::boundsOf(request) } -> std::same_as<typename T::Bounds>;
+    requires std::derived_from<typename T::Bounds, ReplyLimits>;
+    /// In the parent. Throws WireError where the reply is none to the request, and
+    /// replaces what is not a worker's to choose.
+    T::accept(reply, bounds);
+};
+
+}  // namespace farol::worker

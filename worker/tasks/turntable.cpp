@@ -1,0 +1,86 @@
+#include "worker/tasks/turntable.h"
+
+#include <glm/gtc/constants.hpp>
+#include <glm/gtx/rotate_vector.hpp>
+
+#include "image/apng.h"
+#include "render/plan/cost.h"
+#include "worker/scene_facts.h"
+#include "worker/state.h"
+
+namespace farol::worker {
+namespace {
+
+/// Later frames are seen by the first one's camera, turned; what framed the scene stays.
+void turnEye(render::PictureOptions& options, const scene::Camera& first, double angle) {
+    options.azimuthDeg.reset();
+    options.elevationDeg.reset();
+    options.distance.reset();
+    options.eye =
+        first.target + glm::rotate(first.eye - first.target, angle, glm::normalize(first.up));
+    options.target = first.target;
+    options.up = first.up;
+    options.fovDeg = first.fovDeg;
+    options.near = first.near;
+    options.far = first.far;
+}
+
+void appendPart(std::string& body, const render::Picture& picture) {
+    body.append("--").append(kFrameBoundary).append("\r\nContent-Type: ");
+    body.append(picture.contentType).append("\r\nContent-Length: ");
+    body.append(std::to_string(picture.bytes.size())).append("\r\n\r\n");
+    body.append(picture.bytes).append("\r\n");
+}
+
+}  // namespace
+
+render::Picture TurntableTask::run(const Request& request, WorkerState& state) {
+    const bool isApng = request.form == Form::apng;
+    render::Job job = request.job;
+    image::ApngWriter animation(request.frames, request.fps,
+                                job.options.background == "transparent");
+    render::Picture all;
+    std::string body;
+    state.renderer.budget().expectFrames(request.frames);
+    for (int i = 0; i < request.frames; ++i) {
+        if (i > 0) turnEye(job.options, all.camera, glm::two_pi<double>() * i / request.frames);
+        render::Picture frame;
+        if (isApng) {
+            image::Image image;
+            frame = state.renderer.draw(job, image);
+            animation.add(image);
+        } else {
+            frame = state.renderer.render(job);
+            appendPart(body, frame);
+        }
+        if (i == 0) all = std::move(frame);
+    }
+    all.bytes = isApng ? animation.finish() : body + "--" + kFrameBoundary + "--\r\n";
+    return all;
+}
+
+JobFacts TurntableTask::factsOf(const Request& request) { return worker::factsOf(request.job); }
+
+TurntableTask::Bounds TurntableTask::boundsOf(const Request& request) {
+    render::PictureOptions options = request.job.options;
+    if (request.form == Form::apng) options.format = image::Format::png;
+    Bounds bounds{imageBoundsOf(options), request.form};
+    bounds.bytes -= bounds.imageBytes;
+    bounds.imageBytes *= static_cast<std::uint64_t>(request.frames);
+    bounds.bytes += bounds.imageBytes;
+    return bounds;
+}
+
+void TurntableTask::accept(Reply& reply, const Bounds& bounds) {
+    if (bounds.form == Form::apng) {
+        acceptImage(reply, bounds);
+        reply.contentType = "image/apng";
+        return;
+    }
+    checkPicture(reply, bounds);
+    require(reply.bytes.starts_with(std::string("--") + kFrameBoundary + "\r\n"),
+            "the format of an image");
+    reply.contentType = std::string("multipart/x-mixed-replace; boundary=") + kFrameBoundary;
+}
+
+}  // namespace farol::worker

@@ -1,0 +1,34 @@
+#pragma once
+
+#include "worker/reply_check.h"
+
+namespace farol::worker {
+
+inline constexpr const char* kFrameBoundary = "farol-frame";
+
+/// Draws a round of pictures: the eye goes about the target once, from the job's own camera on.
+struct TurntableTask : TaskTraits {
+    static constexpr const char* kName = "turntable";
+    enum class Form {
+        mixed,  ///< multipart/x-mixed-replace, parts between kFrameBoundary
+        apng    ///< one animated PNG
+    };
+    friend constexpr Form lastOf(Form) { return Form::apng; }
+    struct Request {
+        render::Job job;
+        int frames = 24;
+        double fps = 12.0;
+        Form form = Form::mixed;
+    };
+    using Reply = render::Picture;  ///< all frames in one body; facts and times of the first
+    struct Bounds : ImageBounds {
+        Form form = Form::mixed;
+    };
+
+    static Reply run(const Request& request, WorkerState& state);
+    static JobFacts factsOf(const Request& request);
+    static Bounds boundsOf(const Request& request);
+    static void accept(Reply& reply, const Bounds& bounds);
+};
+
+}  // namespace farol::worker

@@ -1,0 +1,43 @@
+#include "worker/worker.h"
+
+#include <signal.h>
+#include <unistd.h>
+
+#include <optional>
+
+#include "worker/channel.h"
+#include "worker/hello.h"
+#include "worker/jobs.h"
+#include "worker/tasks/check.h"
+#include "worker/wire.h"
+
+namespace farol::worker {
+
+int runWorker(const SandboxOptions& options, double maxCost) {
+    // ^C and a service manager's SIGTERM reach the whole group; the parent decides when we end.
+    for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) signal(number, SIG_IGN);
+    Channel channel(kSocket);
+    Hello hello;
+    enterSandbox(options, hello.sandbox);
+    std::optional<WorkerState> state;
+    try {
+        state.emplace(maxCost);
+        warmUp(state->renderer);
+        hello.gl = state->renderer.gl().description();
+    } catch (const std::exception& fault) {
+        hello.fault = fault.what();
+    }
+    closeSandbox(options, hello.sandbox);
+    constexpr auto kNever = Clock::time_point::max();
+    bool open = channel.send(pack(hello), kNever) == Channel::Result::done && hello.fault.empty();
+    std::string message;
+    while (open && channel.receive(message, kNever) == Channel::Result::done) {
+        const std::string answer = work(*state, message);
+        std::string().swap(message);
+        open = channel.send(answer, kNever) == Channel::Result::done;
+    }
+    // Nothing to tidy up that the kernel does not; Mesa's own end would want what is closed now.
+    _exit(0);
+}
+
+}  // namespace farol::worker

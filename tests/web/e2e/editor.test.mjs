@@ -39,7 +39,7 @@ async function typeAfter(view, text, typed, erase = 0) {
 const marked = (view, severity) => view.page.locator(`.cm-line:has(.cm-lintRange-${severity})`).allInnerTexts();
 const draftOf = (view, id) => view.page.evaluate((key) => JSON.parse(localStorage.getItem(key))?.text ?? null, `farol.draft.${id}`);
 
-test('what is typed is drawn; an error marks its line, tells its cure, and leaves the picture', async () => {
+test('what is typed is drawn; an error marks its line and names the fix', async () => {
   const view = await openPage(browser, `${server.url}/#/scene/torch`, { viewport: { width: 1200, height: 800 } });
   await settled(view);
   await openEditor(view);
@@ -52,12 +52,22 @@ test('what is typed is drawn; an error marks its line, tells its cure, and leave
   assert.match(lines[0], new RegExp(`"x${file.replaceAll('.', '\\.')}"`));
   const sentence = await view.page.locator('.findings .error').first().innerText();
   assert.match(sentence, new RegExp(`Line ${source.slice(0, source.indexOf(`<model file="${file}"`)).split('\n').length}, column \\d+: There is no file`));
-  assert.deepEqual(await canvasPixels(view.page), before);
   await view.page.locator('.cm-lintRange-error').hover();
   await view.page.locator('.cm-tooltip .cm-diagnostic').waitFor();
+  // A marked box stands for the missing mesh.
+  await settled(view);
+  const placeholder = await canvasPixels(view.page);
+  assert.notDeepEqual(placeholder, before);
+  // Where nothing can be drawn, the last image stays.
+  await view.page.locator('.cm-content').click();
+  await view.page.keyboard.press('Control+a');
+  await view.page.keyboard.press('Delete'); // text over a selection: the browser would add styles of its own
+  await view.page.keyboard.insertText('sphere { <0, 0, 0>, 1 }');
+  await view.page.locator('.findings .error').filter({ hasText: 'Line 1' }).first().waitFor();
+  assert.deepEqual(await canvasPixels(view.page), placeholder);
   // Mended, it is drawn again; another number is another picture.
   await view.page.locator('.cm-content').click();
-  await view.page.keyboard.press('Control+z');
+  for (let i = 0; i < 3; ++i) await view.page.keyboard.press('Control+z');
   await view.page.waitForFunction(() => document.querySelectorAll('.findings .error').length === 0);
   await view.close();
 });

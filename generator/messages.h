@@ -5,6 +5,15 @@
 namespace farol::generator {
 
 inline constexpr MessageRow kGeneratorMessages[] = {
+    {"asset.missing/file",
+     "there is no file \"{file}\"[; {fix}]",
+     {"comet.patch", "did you mean \"teapot.patch\"?"}},
+    {"asset.missing/model",
+     "there is no file \"{file}\", no generator comment for it, and its name is no shape's; {fix}",
+     {"trous.3d", "did you mean \"torus.3d\"?"}},
+    {"asset.outside",
+     "\"{file}\" cannot be read; {fix}",
+     {"../meshes/cone.3d", "send both in one archive"}},
     {"mesh.assumed",
      "the faces of the PLY file have no \"property\" line; read as \"property list uchar int "
      "vertex_indices\""},
@@ -28,6 +37,7 @@ inline constexpr MessageRow kGeneratorMessages[] = {
      "cannot read the mesh \"{file}\": {problem}; drawn as \"{shape}\", which its name or comment "
      "says",
      {"plane_2_3.3d", "\"PLANE\" is not a number", "plane 2 3"}},
+    {"part.point-for-comma", "write a point for the comma: \"{name}\"", {"box_1.5.3d"}},
 };
 
 /// A message of this floor: message<"mesh.left-out">("file"_arg = name, "list"_arg = list).

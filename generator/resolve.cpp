@@ -55,10 +55,9 @@ class ModelFinder {
             const std::string file(baseName(model.file));
             return shape(parseCall({shapeOfFile(file)->name, file}), model, "a built-in file");
         }
-        throw Error("asset.missing",
-                    "there is no file \"" + model.file +
-                        "\", no generator comment for it, and its name is no shape's" +
-                        advice(model.file, model.where, shapeNames(model.file)));
+        throw Error(message<"asset.missing/model">(
+            "file"_arg = model.file,
+            "fix"_arg = advice(model.file, model.where, shapeNames(model.file))));
     }
 
   private:
@@ -160,9 +159,11 @@ class ModelFinder {
         const ShapeEntry* named = findShape(words[0]);
         if (words.size() == 1 && named != nullptr) {
             if (locator_.leadsOut(model.file, model.where))
-                report(Severity::warning, "asset.outside", model.where,
-                       farol::quoted(model.file) + " cannot be read" +
-                           locator_.advice(model.file, model.where));
+                diagnostics_.push_back(diagnosticOf(
+                    Severity::warning,
+                    message<"asset.outside">("file"_arg = model.file,
+                                             "fix"_arg = locator_.advice(model.file, model.where)),
+                    model.where));
             for (std::size_t i = 0; i < named->required; ++i)
                 words.push_back(formatNumber(named->arguments[i].usual));
             report(Severity::warning, "shape.guessed", model.where,
@@ -182,8 +183,8 @@ class ModelFinder {
             if (const auto path = locator_.locate(call.file, model.where, diagnostics_))
                 source.path = *path;
             else if (!builtinFile(call.file))
-                throw Error("asset.missing", "there is no file \"" + call.file + "\"" +
-                                                 advice(call.file, model.where, {}));
+                throw Error(message<"asset.missing/file">(
+                    "file"_arg = call.file, "fix"_arg = advice(call.file, model.where, {})));
         } else {
             countTriangles(call, assets_);  // throws over the limit
         }
@@ -216,12 +217,12 @@ class ModelFinder {
     }
 
     /// What to do about a file that is not there: the nearest name, if any is near.
-    std::string advice(const std::string& file, const Location& where, Words candidates) {
+    Message advice(const std::string& file, const Location& where, Words candidates) {
         const std::string base(baseName(file));
         std::string points = base;
         std::replace(points.begin(), points.end(), ',', '.');
         if (points != base && wordsOfName(points))
-            return "; write a point for the comma: \"" + points + "\"";
+            return message<"part.point-for-comma">("name"_arg = points);
         for (std::string& name : builtinNames()) candidates.push_back(std::move(name));
         return locator_.advice(file, where, std::move(candidates));
     }

@@ -31,8 +31,9 @@ std::string readSource(const std::string& path, const scene::Assets& assets) {
     if (const auto found = locator.locate(path, {}, unheard))
         if (auto bytes = assets.read(*found)) return std::move(*bytes);
     if (const auto bytes = builtinFile(path)) return std::string(*bytes);
-    throw Error("asset.missing",
-                "there is no file " + farol::quoted(path) + locator.nearest(path, builtinNames()));
+    const std::optional<Message> near = locator.nearest(path, builtinNames());
+    throw Error(message<"asset.missing/file">("file"_arg = path,
+                                              "fix"_arg = near ? *near : Message{}));
 }
 
 }  // namespace farol::generator

@@ -1,24 +1,16 @@
 #include "generator/io/plain_text.h"
 
 #include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "core/utf16.h"
 
 namespace farol::generator::io {
 namespace {
 
 bool isDigit(char c) { return c >= '0' && c <= '9'; }
 bool isLetter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
-
-/// Characters over 0x7E become '?': no mesh's numbers or words hold any.
-std::string fromUtf16(std::string_view bytes, bool bigEndian) {
-    std::string out;
-    out.reserve(bytes.size() / 2);
-    for (std::size_t i = 0; i + 1 < bytes.size(); i += 2) {
-        const auto high = static_cast<unsigned char>(bytes[bigEndian ? i : i + 1]);
-        const auto low = static_cast<unsigned char>(bytes[bigEndian ? i + 1 : i]);
-        out += high == 0 && low < 0x7F ? static_cast<char>(low) : '?';
-    }
-    return out;
-}
 
 enum class Token { word, whole, comma, other };
 
@@ -80,9 +72,8 @@ bool hasDecimalCommas(std::string_view text) {
 }  // namespace
 
 std::string_view plainText(std::string_view bytes, std::string& storage) {
-    const bool little = bytes.substr(0, 2) == "\xFF\xFE", big = bytes.substr(0, 2) == "\xFE\xFF";
-    if (little || big) {
-        storage = fromUtf16(bytes.substr(2), big);
+    if (std::optional<std::string> wide = utf16ToUtf8(bytes)) {
+        storage = std::move(*wide);
         bytes = storage;
     } else if (bytes.substr(0, 3) == "\xEF\xBB\xBF") {
         bytes.remove_prefix(3);

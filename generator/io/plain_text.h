@@ -5,7 +5,7 @@
 
 namespace farol::generator::io {
 
-/// A mesh file's text as the readers know it: UTF-16 and a byte order mark become plain bytes, lone
+/// A mesh file's text as the readers know it: UTF-16 becomes UTF-8, without a byte order mark, lone
 /// carriage returns line feeds, and decimal commas points. Returns `bytes` or a view of `storage`;
 /// lines keep their numbers. A decimal comma is one where no number has a point, every comma stands
 /// between two digits, no number has two, and a line has several numbers that blanks part.

@@ -14,8 +14,7 @@ constexpr std::size_t kMaxNested = std::size_t{64} << 20U;  // of archives in th
 constexpr int kDeepest = 2;                                 // archives in archives
 
 [[noreturn]] void differsFrom(const std::string& path) {
-    throw Error("bundle.path",
-                "The file " + quoted(path) + " is in the archive twice, with different content.");
+    throw Error(message<"bundle.path/twice">("path"_arg = path));
 }
 
 }  // namespace
@@ -40,12 +39,17 @@ ArchiveAssets::ArchiveAssets(std::shared_ptr<const std::string> bytes)
 void ArchiveAssets::open(std::shared_ptr<const std::string> bytes, const std::string& prefix,
                          int depth) {
     std::map<std::string, File> found;
+    std::map<std::string, std::string> links;
     std::map<std::string, std::shared_ptr<std::string>> inner;
     std::size_t innerBytes = 0;
     for (EntryReader reader(*bytes); reader.next();) {
         if (entriesLeft_ == 0) tooManyEntries();
         --entriesLeft_;
         const std::string& path = reader.path();
+        if (reader.link()) {
+            links.try_emplace(path, *reader.link());
+            continue;
+        }
         const auto [known, fresh] = found.try_emplace(path, File{bytes, path, reader.size()});
         if (!fresh && known->second.size != reader.size()) differsFrom(path);
         if (!fresh || !isArchiveName(path)) continue;
@@ -57,6 +61,7 @@ void ArchiveAssets::open(std::shared_ptr<const std::string> bytes, const std::st
             note(message<"bundle.closed/limit">("path"_arg = uncut(prefix + path)));
         }
     }
+    follow(links, found, prefix);
     for (auto& [path, file] : found) files_.emplace(prefix + path, std::move(file));
     if (inner.empty()) return;
     for (EntryReader reader(*bytes); reader.next();) {
@@ -80,6 +85,27 @@ void ArchiveAssets::open(std::shared_ptr<const std::string> bytes, const std::st
                                           "why"_arg = error.primary()));
         }
     }
+}
+
+/// Adds the links whose ends are files of the archive to them, under the link's path.
+void ArchiveAssets::follow(const std::map<std::string, std::string>& links,
+                           std::map<std::string, File>& files, const std::string& prefix) {
+    constexpr int kMostLinks = 8;  // one after the other
+    std::map<std::string, File> followed;
+    for (const auto& [path, first] : links) {
+        if (files.count(path) != 0) continue;
+        std::string target = first;
+        for (int i = 1; i < kMostLinks && links.count(target) != 0; ++i) target = links.at(target);
+        const auto file = files.find(target);
+        if (file == files.end()) {
+            note(message<"bundle.link/outside">("path"_arg = uncut(prefix + path)));
+            continue;
+        }
+        followed.emplace(path, file->second);
+        note(message<"bundle.link">("path"_arg = uncut(prefix + path),
+                                    "target"_arg = uncut(prefix + target)));
+    }
+    files.merge(followed);
 }
 
 void ArchiveAssets::note(Message text) {
@@ -151,29 +177,40 @@ void ArchiveAssets::prefetch(const std::vector<std::string>& paths) const {
 
 /// Reads files in one pass of each archive that holds some of them.
 void ArchiveAssets::load(const std::vector<std::string>& paths) const {
-    std::map<std::shared_ptr<const std::string>, std::map<std::string, std::string>> wanted;
+    // Entries by the archive that holds them; with links, several paths have one entry.
+    std::map<std::shared_ptr<const std::string>, std::map<std::string, std::vector<std::string>>>
+        wanted;
     for (const std::string& path : paths) {
         const File& file = files_.at(path);
-        wanted[file.archive].emplace(file.name, path);
+        wanted[file.archive][file.name].push_back(path);
     }
-    for (const auto& [archive, names] : wanted)
+    for (const auto& [archive, entries] : wanted)
         for (EntryReader reader(*archive); reader.next();) {
-            const auto found = names.find(reader.path());
-            if (found == names.end()) continue;
-            std::string content = reader.content(allowed_ - used_);
-            const auto [known, fresh] = loaded_.try_emplace(found->second);
-            if (!fresh && known->second != content) {
-                used_ -= known->second.size();
-                loaded_.erase(known);
-                differsFrom(found->first);
-            }
-            if (!fresh) continue;
-            used_ += content.size();
-            known->second = std::move(content);
+            const auto entry = entries.find(reader.path());
+            if (entry == entries.end() || reader.link()) continue;
+            const std::string content = reader.content(allowed_ - used_);
+            for (const std::string& path : entry->second) keep(path, content);
         }
     for (const std::string& path : paths)
         if (loaded_.count(path) == 0)
-            throw Error("bundle.damaged", "The archive does not hold " + quoted(path) + ".");
+            throw Error(message<"bundle.damaged/lost">("path"_arg = path));
+}
+
+/// Adds a file's bytes to what is loaded. Throws as `load`.
+void ArchiveAssets::keep(const std::string& path, const std::string& content) const {
+    const auto [known, isNew] = loaded_.try_emplace(path);
+    if (!isNew && known->second != content) {
+        used_ -= known->second.size();
+        loaded_.erase(known);
+        differsFrom(path);
+    }
+    if (!isNew) return;
+    if (content.size() > allowed_ - used_) {
+        loaded_.erase(known);
+        throw Error(message<"limit.bundle/bytes">("max"_arg = allowed_ >> 20U));
+    }
+    used_ += content.size();
+    known->second = content;
 }
 
 Bundle readArchive(std::string_view bytes) {
@@ -183,7 +220,7 @@ Bundle readArchive(std::string_view bytes) {
     bundle.main = mainOf(archive);
     bundle.files = readFiles(archive, neededFiles(archive, archive.list(), most), most);
     if (bundle.files.count(bundle.main) == 0)  // listed, and damaged where its bytes should be
-        throw Error("bundle.damaged", "The archive does not hold " + quoted(bundle.main) + ".");
+        throw Error(message<"bundle.damaged/lost">("path"_arg = bundle.main));
     return bundle;
 }
 

@@ -20,14 +20,15 @@ bool isArchiveName(std::string_view path);
 /// The files of a zip (stored or deflated), tar, tar.gz, 7z or rar. Entries are listed first and
 /// read when they are asked for: of a whole project only what a scene needs is unpacked. A folder
 /// that holds everything is left out of the paths; what isClutter names is not listed. Archives in
-/// the archive, two deep, are folders of their name: "a.zip/scene.xml".
+/// the archive, two deep, are folders of their name: "a.zip/scene.xml". Links to files of the
+/// archive are these files; other links, and devices, are left out.
 /// Bounded before memory is taken: entries listed (kMaxListed), bytes unpacked to reach an entry,
-/// and bytes used. `read` throws Error limit.bundle, bundle.damaged, bundle.entry (packed by a
-/// method that is not read), bundle.path (a name twice with different bytes). Thread-safe.
+/// and bytes used. `read` throws Error limit.bundle, bundle.damaged, bundle.entry (encrypted, or
+/// packed by a method that is not read), bundle.path (a name twice with different bytes).
+/// Thread-safe.
 class ArchiveAssets final : public Assets {
   public:
-    /// Throws Error bundle.damaged, bundle.path (absolute or with ".."), bundle.entry (a link, a
-    /// device, encrypted), limit.bundle.
+    /// Throws Error bundle.damaged, bundle.path (absolute or with ".."), limit.bundle.
     explicit ArchiveAssets(std::shared_ptr<const std::string> bytes);
     std::vector<std::string> list() const override;
     bool has(const std::string& path) const override;
@@ -37,7 +38,7 @@ class ArchiveAssets final : public Assets {
     std::string version(const std::string& path) const override;
     /// The most that it may hold in memory, bytes: itself and what may be read of it.
     std::size_t maxBytes() const { return packed_ + allowed_; }
-    /// Infos about archives in the archive that were left closed.
+    /// Infos about archives in the archive that were left closed, and about links.
     const Diagnostics& findings() const { return findings_; }
 
   private:
@@ -46,6 +47,9 @@ class ArchiveAssets final : public Assets {
         std::string name;                            ///< in there
         std::uint64_t size = 0;                      ///< as it says
     };
+    void follow(const std::map<std::string, std::string>& links, std::map<std::string, File>& files,
+                const std::string& prefix);
+    void keep(const std::string& path, const std::string& content) const;
     void open(std::shared_ptr<const std::string> bytes, const std::string& prefix, int depth);
     void note(Message text);
     void stripTop();

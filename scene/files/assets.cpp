@@ -16,6 +16,7 @@
 
 #include "core/digest.h"
 #include "core/text.h"
+#include "scene/messages.h"
 
 namespace farol::scene {
 namespace fs = std::filesystem;
@@ -273,8 +274,8 @@ std::optional<std::string> FolderAssets::read(const std::string& path) const {
     if (file.fd < 0 && isPassing(errno)) fail(path);
     if (file.fd < 0 || fstat(file.fd, &facts) != 0 || !S_ISREG(facts.st_mode)) return std::nullopt;
     if (facts.st_size > static_cast<off_t>(kMaxFileBytes))
-        throw Error("limit.file-bytes", "the file \"" + path + "\" is larger than " +
-                                            std::to_string(kMaxFileBytes >> 20U) + " MiB");
+        throw Error(message<"limit.file-bytes/asset">("path"_arg = uncut(path),
+                                                      "max"_arg = kMaxFileBytes >> 20U));
     std::string bytes(static_cast<std::size_t>(facts.st_size), '\0');
     std::size_t done = 0;
     while (done < bytes.size()) {

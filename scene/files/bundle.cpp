@@ -109,29 +109,20 @@ std::string mainOf(const Assets& files) {
     }
     if (candidates.size() == 1) return candidates.front();
     if (candidates.empty()) {
-        std::string message =
-            "There is no scene among the files: no part named \"scene\", no scene.xml and no other "
-            ".xml file.";
         const auto mesh = std::find_if(paths.begin(), paths.end(), isMesh);
         // A word of a document cannot hold quotes, and a name with them is better not shown as
         // code.
-        if (mesh != paths.end() && mesh->find_first_of("\"<&") == std::string::npos)
-            message +=
-                " A mesh is drawn by a scene that names it: add a scene.xml with <world><group>"
-                "<models><model file=\"" +
-                *mesh + "\"/></models></group></world>.";
-        else
-            message += " Add a scene.xml that names them.";
-        throw Error("bundle.no-scene", message, {}, "scene");
+        const bool isShown =
+            mesh != paths.end() && mesh->find_first_of("\"<&") == std::string::npos;
+        throw Error(isShown ? message<"bundle.no-scene/mesh">("mesh"_arg = uncut(*mesh))
+                            : message<"bundle.no-scene">(),
+                    {}, "scene");
     }
     const std::span<const std::string> named(candidates.data(),
                                              std::min(candidates.size(), kShownCandidates));
     std::string names = joined(named, ", ", quoted);
-    if (candidates.size() > kShownCandidates) names += " and more";
-    throw Error("bundle.which-scene",
-                "Which file is the scene? " + names +
-                    " could be; call one scene.xml, or send it as the part \"scene\".",
-                {}, "scene");
+    if (candidates.size() > kShownCandidates) names += ", ...";
+    throw Error(message<"bundle.which-scene">("candidates"_arg = uncut(names)), {}, "scene");
 }
 
 namespace {
@@ -183,8 +174,7 @@ std::map<std::string, std::string> readFiles(const Assets& files,
         if (sum > mostBytes)
             throw Error(message<"limit.bundle/needed">("most"_arg = mostBytes >> 20U));
         auto content = files.read(path);
-        if (!content)
-            throw Error("asset.unreadable", "cannot be read; check its permissions", {path, 0, 0});
+        if (!content) throw Error(message<"asset.unreadable/file">(), {path, 0, 0});
         read.emplace(path, std::move(*content));
     }
     return read;

@@ -12,6 +12,7 @@
 #include "core/text.h"
 #include "scene/files/assets.h"
 #include "scene/files/bundle.h"
+#include "scene/messages.h"
 
 namespace farol::scene {
 namespace {
@@ -55,16 +56,13 @@ class Utf8Locale {
 };
 
 [[noreturn]] void tooLarge(std::size_t packed) {
-    throw Error("limit.bundle", "The archive's files are larger than " +
-                                    std::to_string(maxUnpackedBytes(packed) >> 20U) +
-                                    " MiB, the most for one of its size.");
+    throw Error(message<"limit.bundle/bytes">("max"_arg = maxUnpackedBytes(packed) >> 20U));
 }
 
 [[noreturn]] void damaged(archive* from) {
     const char* why = archive_error_string(from);
-    throw Error("bundle.damaged", "The archive cannot be read" +
-                                      (why == nullptr ? "" : ": " + shown(why)) +
-                                      "; pack the files again as a zip file.");
+    throw Error(
+        message<"bundle.damaged/archive">("problem"_arg = std::string_view(why ? why : "")));
 }
 
 std::string nameOf(archive_entry* entry) {
@@ -74,7 +72,7 @@ std::string nameOf(archive_entry* entry) {
     else if (const char* bytes = archive_entry_pathname(entry))
         path = latin1ToUtf8(bytes);
     else
-        throw Error("bundle.path", "The archive has a file without a name.");
+        throw Error(message<"bundle.path/none">());
     std::replace(path.begin(), path.end(), '\\', '/');
     std::size_t begin = 0;
     while (path.compare(begin, 2, "./") == 0) begin += 2;
@@ -84,15 +82,35 @@ std::string nameOf(archive_entry* entry) {
 void checkPath(const std::string& path) {
     const auto control = [](char c) { return static_cast<unsigned char>(c) < 0x20; };
     if (!isSafePath(path) || std::any_of(path.begin(), path.end(), control))
-        throw Error("bundle.path",
-                    "The name " + quoted(path) + " in the archive is not a relative path.");
+        throw Error(message<"bundle.path">("path"_arg = path));
 }
 
-void checkKindOf(archive_entry* entry, const std::string& path) {
-    if (archive_entry_is_encrypted(entry) != 0)
-        throw Error("bundle.entry", quoted(path) + " in the archive is encrypted.");
-    if (archive_entry_filetype(entry) != AE_IFREG || archive_entry_hardlink(entry) != nullptr)
-        throw Error("bundle.entry", quoted(path) + " in the archive is a link or a device.");
+/// What a link leads to, as EntryReader::link; nothing for a file.
+std::optional<std::string> linkOf(archive_entry* entry, const std::string& path) {
+    constexpr std::size_t kLongest = 1024;
+    const char* hard = archive_entry_hardlink(entry);
+    const char* symbolic =
+        archive_entry_filetype(entry) == AE_IFLNK ? archive_entry_symlink(entry) : nullptr;
+    if (hard == nullptr && symbolic == nullptr) return std::nullopt;
+    const string_view target = hard != nullptr ? hard : symbolic;
+    if (target.empty() || target.front() == '/' || target.size() > kLongest) return "";
+    // A hard link's target counts from the top, a symbolic link's from the link's folder.
+    std::vector<string_view> parts;
+    if (hard == nullptr) {
+        parts = split(path, "/");
+        parts.pop_back();
+    }
+    for (const string_view part : split(target, "/\\")) {
+        if (part == ".") continue;
+        if (part != "..") {
+            parts.push_back(part);
+        } else if (parts.empty()) {
+            return "";
+        } else {
+            parts.pop_back();
+        }
+    }
+    return nameToUtf8(joined(parts, "/"));
 }
 
 /// Refuses other methods of zip files: they take memory by what the file says of itself.
@@ -100,8 +118,7 @@ void checkMethodOf(archive* from, const std::string& path) {
     const std::string format = archive_format_name(from);
     if (format.starts_with("ZIP") && format.find("deflation") == std::string::npos &&
         format.find("uncompressed") == std::string::npos)
-        throw Error("bundle.entry", quoted(path) + " in the archive is packed by " + shown(format) +
-                                        "; only stored and deflated files are read.");
+        throw Error(message<"bundle.entry/method">("path"_arg = path, "method"_arg = format));
 }
 
 /// The bytes of a gzipped tar file, unpacked block by block, `most` of them at most: headers and
@@ -118,9 +135,7 @@ class Gunzipped {
             damaged(reader_.get());
         constexpr int kOnce = 2;  // gzip, and the plain file below it
         if (archive_filter_count(reader_.get()) > kOnce)
-            throw Error("bundle.damaged",
-                        "The archive is compressed more than once; expected .tar.gz, .tar or "
-                        ".zip.");
+            throw Error(message<"bundle.damaged/twice">());
     }
     bool isOver() const { return over_; }
 
@@ -173,8 +188,7 @@ std::uint64_t sizeOf(archive_entry* entry) {
 }  // namespace
 
 void tooManyEntries() {
-    throw Error("limit.bundle",
-                "The archive has more than " + std::to_string(Assets::kMaxListed) + " entries.");
+    throw Error(message<"limit.bundle/entries">("max"_arg = Assets::kMaxListed));
 }
 
 std::size_t maxUnpackedBytes(std::size_t packed) {
@@ -234,14 +248,17 @@ bool EntryReader::next() {
         before_ += size_;
         size_ = sizeOf(open_->entry);
         path_ = nameOf(open_->entry);
-        if (archive_entry_filetype(open_->entry) == AE_IFDIR || isClutter(path_)) continue;
+        if (isClutter(path_)) continue;
+        link_ = linkOf(open_->entry, path_);
+        if (!link_ && archive_entry_filetype(open_->entry) != AE_IFREG) continue;
         checkPath(path_);
-        checkKindOf(open_->entry, path_);
         return true;
     }
 }
 
 std::string EntryReader::content(std::size_t left) {
+    if (archive_entry_is_encrypted(open_->entry) != 0)
+        throw Error(message<"bundle.entry">("path"_arg = path_));
     checkMethodOf(open_->reader.get(), path_);
     // What stands before an entry of a solid archive is unpacked to reach it.
     if (size_ > left || (isSolid_ && (before_ > passable_ || size_ > passable_ - before_)))

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -16,11 +17,10 @@ std::size_t maxUnpackedBytes(std::size_t packed);
 /// Throws Error limit.bundle: over Assets::kMaxListed entries.
 [[noreturn]] void tooManyEntries();
 
-/// The files of an archive one by one: zip (stored or deflated), tar, tar.gz, 7z, rar. Folders and
-/// what isClutter names are left out. Bounded before memory is taken: entries, and bytes unpacked
-/// to reach an entry. Throws Error bundle.damaged, bundle.path (absolute or with ".."),
-/// bundle.entry (a link, a device, encrypted; when it is read, packed by another method),
-/// limit.bundle.
+/// The files and links of an archive one by one: zip (stored or deflated), tar, tar.gz, 7z, rar.
+/// Folders, devices and what isClutter names are left out. Bounded before memory is taken: entries,
+/// and bytes unpacked to reach an entry. Throws Error bundle.damaged, bundle.path (absolute or with
+/// ".."), limit.bundle.
 class EntryReader {
   public:
     /// The bytes must outlive it.
@@ -28,11 +28,16 @@ class EntryReader {
     ~EntryReader();
     EntryReader(const EntryReader&) = delete;
     EntryReader& operator=(const EntryReader&) = delete;
-    /// Goes on to the next file; false at the end. What was not read of the last one is skipped.
+    /// Goes on to the next file or link; false at the end. What was not read of the last one is
+    /// skipped.
     bool next();
     const std::string& path() const { return path_; }
+    /// What a link, symbolic or hard, leads to, as a path in the archive: "" where that is outside.
+    /// Nothing for a file. A link has no content.
+    const std::optional<std::string>& link() const { return link_; }
     std::uint64_t size() const { return size_; }  ///< as the archive says; 0 where it does not
-    /// The file's bytes. Throws Error limit.bundle where there are more than `left`.
+    /// The file's bytes. Throws Error limit.bundle where there are more than `left`, bundle.entry
+    /// for one that is encrypted or packed by a method that is not read.
     std::string content(std::size_t left);
 
   private:
@@ -43,6 +48,7 @@ class EntryReader {
     std::uint64_t before_ = 0, size_ = 0;  ///< bytes of the entries before this one; of this one
     bool isSolid_ = false;                 ///< 7z and rar files may be
     std::string path_;
+    std::optional<std::string> link_;
     std::unique_ptr<Open> open_;
 };
 

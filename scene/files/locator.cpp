@@ -282,7 +282,8 @@ bool Locator::leadsOut(const std::string& path, const Location& where) const {
     return !wanted.parts.empty() && (wanted.isAbsolute || !join(folderOf(where), wanted));
 }
 
-std::string Locator::nearest(const std::string& path, std::vector<std::string> candidates) {
+std::optional<Message> Locator::nearest(const std::string& path,
+                                        std::vector<std::string> candidates) {
     // More names than this would cost more time than the hint is worth.
     constexpr std::size_t kMaxNames = 2'000;
     for (const std::string& listed : list()) {
@@ -290,16 +291,16 @@ std::string Locator::nearest(const std::string& path, std::vector<std::string> c
         candidates.emplace_back(baseName(listed));
     }
     const std::string near = didYouMean(std::string(baseName(path)), candidates);
-    return near.empty() || near == path ? "" : "; did you mean \"" + near + "\"?";
+    if (near.empty() || near == path) return std::nullopt;
+    return message<"part.near-file">("name"_arg = uncut(near));
 }
 
-std::string Locator::advice(const std::string& path, const Location& where,
-                            std::vector<std::string> candidates) {
-    if (leadsOut(path, where))
-        return "; it is outside the scene's folder: name a folder that holds both with --assets, "
-               "or send both in one archive";
-    const std::string near = hintsLeft_-- > 0 ? nearest(path, std::move(candidates)) : "";
-    return near.empty() ? "; add it to the scene's files, or correct the name" : near;
+Message Locator::advice(const std::string& path, const Location& where,
+                        std::vector<std::string> candidates) {
+    if (leadsOut(path, where)) return message<"part.name-assets">();
+    std::optional<Message> near;
+    if (hintsLeft_-- > 0) near = nearest(path, std::move(candidates));
+    return near ? std::move(*near) : message<"part.add-file">();
 }
 
 std::optional<std::string> locate(const Assets& assets, const std::string& path,

@@ -31,14 +31,15 @@ class Locator {
     const std::vector<std::string>& list();
     /// Returns whether `path`, written in the document `where.file`, leads out of the assets.
     bool leadsOut(const std::string& path, const Location& where) const;
-    /// Returns "; did you mean "x"?" for the candidate or file whose name is nearest to that of
-    /// `path`, or "". Compares a bounded number of names.
-    std::string nearest(const std::string& path, std::vector<std::string> candidates = {});
+    /// Returns "did you mean "x"?" for the candidate or file whose name is nearest to that of
+    /// `path`, or nothing. Compares a bounded number of names.
+    std::optional<Message> nearest(const std::string& path,
+                                   std::vector<std::string> candidates = {});
     /// Returns how to fix a missing file: by --assets where `path` leads out of the assets, else as
     /// nearest, else to add it. Looks for the nearest name a bounded number of times: more missing
     /// files are the same mistake.
-    std::string advice(const std::string& path, const Location& where,
-                       std::vector<std::string> candidates = {});
+    Message advice(const std::string& path, const Location& where,
+                   std::vector<std::string> candidates = {});
 
   private:
     /// How names are compared, in this order.

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/text.h"
+#include "scene/messages.h"
 
 namespace farol::scene {
 namespace {
@@ -20,14 +21,16 @@ class FileResolver {
     void run() {
         for (Group& group : scene_.groups) visit(group);
         if (!scene_.background.file.empty())
-            resolveFile(scene_.background.file, scene_.background.path, "background",
+            resolveFile(scene_.background.file, scene_.background.path, Use::background,
                         scene_.background.where);
         if (scene_.skybox)
-            resolveFile(scene_.skybox->file, scene_.skybox->path, "skybox texture",
+            resolveFile(scene_.skybox->file, scene_.skybox->path, Use::skybox,
                         scene_.skybox->where);
     }
 
   private:
+    enum class Use { texture, background, skybox };
+
     void visit(Group& group) {
         for (Model& model : group.models) {
             resolveModel(model);
@@ -35,21 +38,28 @@ class FileResolver {
             if (scene_.dialect == Dialect::engine2017 && model.source.isSheet)
                 model.twoSided = true;
             if (model.texture && !model.texture->chess)
-                resolveFile(model.texture->file, model.texture->path, "texture",
+                resolveFile(model.texture->file, model.texture->path, Use::texture,
                             model.texture->where);
         }
         for (Group& child : group.groups) visit(child);
     }
 
-    void reportError(const std::string& code, const Location& where, const std::string& message) {
-        diagnostics_.push_back({Severity::error, code, where, message, ""});
+    static Message missing(Use use, const std::string& file, const Message& fix) {
+        switch (use) {
+            case Use::background:
+                return message<"asset.missing/background">("file"_arg = file, "fix"_arg = fix);
+            case Use::skybox:
+                return message<"asset.missing/skybox">("file"_arg = file, "fix"_arg = fix);
+            case Use::texture:
+                break;
+        }
+        return message<"asset.missing/texture">("file"_arg = file, "fix"_arg = fix);
     }
 
     /// What was found once holds for every model and texture of the same words in a document:
     /// asking the bundle again would repeat its warnings. What is missing is reported at each
     /// place.
-    void resolveFile(const std::string& file, std::string& path, const std::string& what,
-                     const Location& where) {
+    void resolveFile(const std::string& file, std::string& path, Use use, const Location& where) {
         const auto [known, fresh] = files_.try_emplace({where.file, file});
         if (fresh) {
             known->second.path = locator_.locate(file, where, diagnostics_);
@@ -58,8 +68,8 @@ class FileResolver {
         if (known->second.path)
             path = *known->second.path;
         else
-            reportError("asset.missing", where,
-                        "there is no " + what + " " + quoted(file) + known->second.advice);
+            diagnostics_.push_back(
+                diagnosticOf(Severity::error, missing(use, file, known->second.advice), where));
     }
 
     void resolveModel(Model& model) {
@@ -72,15 +82,18 @@ class FileResolver {
                 known->second.fault = error.primary();
             }
         }
-        if (known->second.fault)
-            reportError(known->second.fault->code, model.where, known->second.fault->message);
-        else
+        if (!known->second.fault) {
             model.source = known->second.source;
+            return;
+        }
+        Diagnostic fault = *known->second.fault;
+        fault.where = model.where;
+        diagnostics_.push_back(std::move(fault));
     }
 
     struct FoundFile {
         std::optional<std::string> path;
-        std::string advice;
+        Message advice;
     };
     struct FoundModel {
         ModelSource source;

@@ -16,6 +16,7 @@ inline constexpr MessageRow kReadMessages[] = {
      "\"{name}\" of <{element}> is longer than {max} bytes",
      {"file", "model", "1024"}},
     {"part.range", "{min} to {max}", {"0.001", "179.999"}},
+    {"part.range-at-least", "{min} or more", {"1e-09"}},
     {"part.range-not-negative", "0 or more"},
     {"part.range-positive", "more than 0"},
     {"scene.attenuation",

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/utf16.h"
 #include "scene/expansion.h"
 #include "scene/messages.h"
 #include "scene/read/scene_builder.h"
@@ -37,6 +38,13 @@ void warnIfEmpty(const Scene& scene, Findings& findings) {
 Scene readDocument(std::string_view xml, const std::string& name, ReadSession& session) {
     ReadLimits limits = session.options.limits;
     limits.elements = session.elementsLeft;
+    // Too large a document is refused by its own size, before it is copied.
+    const std::optional<std::string> wide =
+        xml.size() <= limits.bytes ? utf16ToUtf8(xml) : std::nullopt;
+    if (wide) {
+        xml = *wide;
+        limits.bytes += limits.bytes / 2;
+    }
     const Document document(xml, name, limits, session.findings);
     session.elementsLeft -= document.repaired().elements;
     return SceneBuilder(document, session).build();

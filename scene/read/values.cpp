@@ -173,13 +173,16 @@ class AttributeReader {
         if (!parsed) return false;
         entry.number = *parsed;
         if (*parsed >= row.min && *parsed <= row.max) return true;
-        if (row.clamped) {
+        // Over 0 as it must be, and smaller than can be reckoned with.
+        const bool isTiny = row.min > 0 && row.max >= kHugeNumber && *parsed > 0;
+        if (row.clamped || isTiny) {
             entry.number = std::fmin(std::fmax(*parsed, row.min), row.max);
-            findings_.warn(
-                message<"scene.clamped">("name"_arg = name, "element"_arg = element_,
-                                         "value"_arg = entry.text, "range"_arg = rangeOf(row),
-                                         "number"_arg = entry.number),
-                entry.where);
+            const Message range =
+                isTiny ? message<"part.range-at-least">("min"_arg = row.min) : rangeOf(row);
+            findings_.warn(message<"scene.clamped">("name"_arg = name, "element"_arg = element_,
+                                                    "value"_arg = entry.text, "range"_arg = range,
+                                                    "number"_arg = entry.number),
+                           entry.where);
             return true;
         }
         findings_.error(

@@ -28,7 +28,6 @@ inline constexpr MessageRow kRepairMessages[] = {
      "the document type defines entities or elements; delete the <!DOCTYPE ...>"},
     {"xml.empty", "the document is empty; expected a <world> or <scene>"},
     {"xml.encoding", "the document is not UTF-8; reading it as Latin-1"},
-    {"xml.encoding/wide", "the document is in UTF-16; save it as UTF-8"},
     {"xml.entity",
      "unknown entity \"{value}\"; expected \"&lt;\", \"&gt;\", \"&amp;\", \"&quot;\" or \"&apos;\"",
      {"&copy;"}},

@@ -139,12 +139,6 @@ Repaired repair(std::string_view source, const LineIndex& lines, const ReadLimit
     if (source.size() > limits.bytes)
         throw Error(message<"limit.bytes">("bytes"_arg = source.size(), "max"_arg = limits.bytes),
                     lines.at(0));
-    const auto byte = [&source](std::size_t i) {
-        return i < source.size() ? static_cast<unsigned char>(source[i]) : 0xAAU;
-    };
-    if ((byte(0) == 0xFFU && byte(1) == 0xFEU) || (byte(0) == 0xFEU && byte(1) == 0xFFU) ||
-        (byte(0) == '<' && byte(1) == 0) || (byte(0) == 0 && byte(1) == '<'))
-        throw Error(message<"xml.encoding/wide">(), lines.at(0));
     if (trimmed(source).empty() || trimmed(source) == "\xEF\xBB\xBF")
         throw Error(message<"xml.empty">(), lines.at(0));
     if (const std::size_t nul = source.find('\0'); nul != std::string_view::npos)

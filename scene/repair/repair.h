@@ -38,7 +38,7 @@ struct Repaired {
 /// Makes `source` well-formed: quotes, blanks, stray text, comments, encoding; every repair is a
 /// warning xml.*. What cannot be repaired is an error xml.* and closed as well as it can be, so
 /// that reading can go on to find more. Iterative: no nesting overflows the stack.
-/// Throws Error limit.bytes, limit.depth, limit.elements, xml.empty, xml.encoding.
+/// Throws Error limit.bytes, limit.depth, limit.elements, xml.empty, xml.character.
 Repaired repair(std::string_view source, const LineIndex& lines, const ReadLimits& limits,
                 Findings& findings);
 

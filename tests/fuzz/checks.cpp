@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/utf16.h"
 #include "tests/fuzz/target.h"
 
 namespace farol::fuzz {
@@ -18,10 +19,9 @@ bool isCode(const std::string& code) {
 }
 
 /// Lengths of the lines of a text. In XML, and in texts without a line feed, a lone carriage return
-/// ends one too. Of UTF-16, whose bytes are no characters, no line is known to be shorter than all.
+/// ends one too. Of UTF-16 they are counted in UTF-8.
 std::vector<std::size_t> lengthsOf(std::string_view text, bool xml) {
-    if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))
-        return std::vector<std::size_t>(text.size() + 1, text.size());
+    if (const auto wide = utf16ToUtf8(text)) return lengthsOf(*wide, xml);
     std::vector<std::size_t> lengths{0};
     xml = xml || (text.find('\n') == std::string_view::npos &&
                   text.substr(0, 4096).find('\0') == std::string_view::npos);

@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "core/text.h"
+#include "core/utf16.h"
 
 using namespace farol;
 
@@ -40,4 +41,28 @@ TEST_CASE("UTF-8 is told from other bytes, which are replaced one by one") {
     }
     CHECK(nameToUtf8("Jo\xE3o") == "Jo\xC3\xA3o");
     CHECK(nameToUtf8("Jo\xC3\xA3o") == "Jo\xC3\xA3o");
+}
+
+TEST_CASE("UTF-16 becomes UTF-8, whatever its order of bytes") {
+    const std::u16string text = u"<a n='caf\u00e9 \u20ac \U0001F600'/>";
+    const std::string plain = "<a n='caf\xC3\xA9 \xE2\x82\xAC \xF0\x9F\x98\x80'/>";
+    for (const bool isBig : {false, true})
+        for (const bool isMarked : {false, true}) {
+            std::string bytes;
+            for (const char16_t unit : isMarked ? u"\uFEFF" + text : text) {
+                const char high = static_cast<char>(unit >> 8U), low = static_cast<char>(unit);
+                bytes += isBig ? high : low;
+                bytes += isBig ? low : high;
+            }
+            CHECK(utf16ToUtf8(bytes) == plain);
+            CHECK(utf16ToUtf8(bytes + "x") == plain + "\xEF\xBF\xBD");
+        }
+    using std::string_literals::operator""s;
+    const std::string mark = "\xEF\xBF\xBD";
+    CHECK(utf16ToUtf8("\xFF\xFE\x3D\xD8"s + "a\0"s) == mark + "a");  // half a pair
+    CHECK(utf16ToUtf8("\xFF\xFE\x00\xDE\x3D\xD8"s) == mark + mark);
+    CHECK(utf16ToUtf8("\xFF\xFE"s) == "");
+    for (const std::string& other :
+         {"<a/>"s, ""s, "<"s, "<\0"s, "<\0\0\0"s, "\0\0\0<"s, "\xFF"s, "\xEF\xBB\xBF<"s})
+        CHECK_FALSE(utf16ToUtf8(other));
 }

@@ -127,18 +127,74 @@ TEST_CASE("hostile archives are refused, whatever they try") {
         {"twice", {scene, {"a.png", "x"}, {"a.png", "y"}}, "bundle.path"},
         {"twice by backslash", {scene, {"t/a.png", "x"}, {"t\\a.png", "y"}}, "bundle.path"},
         {"long name", {scene, {std::string(2000, 'n'), "x"}}, "bundle.path"},
-        {"symbolic link", {scene, {"a.png", "", AE_IFLNK, "/etc/passwd"}}, "bundle.entry"},
     };
     for (const auto& row : table)
         for (const Packing packing : {Packing::zip, Packing::tar, Packing::tarGz}) {
             INFO(row.name << " " << static_cast<int>(packing));
             CHECK(codeOf(pack(packing, row.entries)) == row.code);
         }
-    // Only tar files have these.
-    CHECK(codeOf(pack(Packing::tar, {scene, {"a.png", "", AE_IFREG, "", "scene.xml"}})) ==
-          "bundle.entry");
-    CHECK(codeOf(pack(Packing::tar, {scene, {"fifo", "", AE_IFIFO}})) == "bundle.entry");
-    CHECK(codeOf(pack(Packing::tar, {scene, {"device", "", AE_IFCHR}})) == "bundle.entry");
+}
+
+TEST_CASE("a link in an archive is the file that it leads to, or is left out") {
+    const Packed scene{"p/scene.xml", "<world/>"}, wood{"p/tex/wood.png", "w"};
+    const struct {
+        const char* path;
+        const char* target;
+        bool isFile;
+    } table[] = {
+        {"p/a.png", "tex/wood.png", true},
+        {"p/maps/a.png", "../tex/./wood.png", true},
+        {"p/a.png", "../p/tex/wood.png", true},
+        {"p/a.png", "/etc/passwd", false},
+        {"p/a.png", "../../tex/wood.png", false},
+        {"p/a.png", "tex", false},  // a folder
+        {"p/a.png", "a.png", false},
+        {"p/a.png", "gone.png", false},
+    };
+    for (const auto& row : table)
+        for (const Packing packing : {Packing::zip, Packing::tar, Packing::tarGz}) {
+            INFO(row.path << " -> " << row.target << " " << static_cast<int>(packing));
+            const ArchiveAssets files(std::make_shared<const std::string>(
+                pack(packing, {{row.path, "", AE_IFLNK, row.target}, scene, wood})));
+            const std::string path = std::string(row.path).substr(2);  // without the top folder
+            CHECK(files.has(path) == row.isFile);
+            CHECK(files.read(path) ==
+                  (row.isFile ? std::optional<std::string>("w") : std::nullopt));
+            REQUIRE(files.findings().size() == 1);
+            CHECK(files.findings()[0].code == "bundle.link");
+            CHECK(files.findings()[0].severity == Severity::info);
+        }
+    // A chain, and two names of one entry that are read in one pass.
+    const ArchiveAssets chain(std::make_shared<const std::string>(
+        pack(Packing::tarGz, {{"a", "", AE_IFLNK, "b"}, {"b", "", AE_IFLNK, "c"}, {"c", "x"}})));
+    chain.prefetch({"a", "b", "c"});
+    CHECK(chain.read("a") == "x");
+    CHECK(chain.read("b") == "x");
+    CHECK(chain.read("c") == "x");
+    const ArchiveAssets ring(std::make_shared<const std::string>(
+        pack(Packing::tar, {{"a", "", AE_IFLNK, "b"}, {"b", "", AE_IFLNK, "a"}, {"c", "x"}})));
+    CHECK(ring.list() == std::vector<std::string>{"c"});
+    // Only tar files have these. A hard link's target counts from the top.
+    const ArchiveAssets hard(std::make_shared<const std::string>(
+        pack(Packing::tar, {{"t/a", "x"}, {"u/b", "", AE_IFREG, "", "t/a"}, {"c", "y"}})));
+    CHECK(hard.read("u/b") == "x");
+    CHECK(readArchive(pack(Packing::tar, {scene, {"fifo", "", AE_IFIFO}, {"zero", "", AE_IFCHR}}))
+              .files.size() == 1);
+}
+
+TEST_CASE("an encrypted file is refused where it is needed") {
+    std::string zip = pack(Packing::zipStored, {{"scene.xml", "<world/>"}, {"a.png", "x"}});
+    // The flag of the second file, in its local head and in the directory.
+    zip[zip.rfind("PK\3\4") + 6] |= 1;
+    zip[zip.rfind("PK\1\2") + 8] |= 1;
+    const ArchiveAssets files(std::make_shared<const std::string>(zip));
+    CHECK(files.read("scene.xml") == "<world/>");
+    try {
+        files.read("a.png");
+        FAIL("an encrypted file was read");
+    } catch (const Error& error) {
+        CHECK(error.code() == "bundle.entry");
+    }
 }
 
 TEST_CASE("archives are bounded before they are unpacked") {

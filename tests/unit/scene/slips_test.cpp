@@ -54,6 +54,17 @@ TEST_CASE("the number that begins a value is read, with a warning that names it"
     CHECK(window.scene->window->width == 300);
 }
 
+TEST_CASE("a length that must be over 0 and is too small becomes the smallest, with a warning") {
+    const Outcome tiny = tryRead(camera("<position z=\"5\"/><projection near=\"1e-10\"/>"));
+    REQUIRE(tiny.scene);
+    CHECK_THAT(finding(tiny, "scene.clamped").message, Catch::Contains("expected 1e-09 or more"));
+    CHECK(tiny.scene->camera->near == 1e-9);
+    for (const char* none : {"0", "-1", "-1e-10"}) {
+        const std::string near = std::string("<projection near=\"") + none + "\"/>";
+        CHECK_FALSE(tryRead(camera("<position z=\"5\"/>" + near)).scene);
+    }
+}
+
 TEST_CASE("an unknown attribute is a warning in every dialect where another is understood") {
     for (const std::string& xml :
          {scene2017("<group><translate z=\"5\" sped=\"2\"/></group>"),

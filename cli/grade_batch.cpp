@@ -103,6 +103,7 @@ std::string digestOf(const grade::Subject& subject) {
 
 struct Batch::Task {
     grade::Subject reference;
+    grade::Wanted wanted;
     std::string digest;
     std::vector<std::string> pictures;
 };
@@ -117,7 +118,7 @@ Batch::Batch(worker::Backend& backend, std::vector<Submission> submissions,
       entries_(submissions_.size() * names_.size()) {}
 
 std::string Batch::keyOf(const grade::Subject& subject, const Task& task) const {
-    return contentDigest(digestOf(subject) + subject.task + task.digest + rubric_.json +
+    return contentDigest(digestOf(subject) + task.wanted.task + task.digest + rubric_.json +
                          std::string(render::kMissingWords[options_.missing]) + backend_.version());
 }
 
@@ -131,6 +132,9 @@ BatchTimes Batch::run() {
         auto task = std::make_shared<Task>();
         task->reference = readReference(one.path, apart);
         task->digest = digestOf(task->reference);
+        task->wanted = {one.name, {}, grade::filesNamedIn(task->reference.job.xml)};
+        for (const GradeTask& other : names_)
+            if (other.name != one.name) task->wanted.others.push_back(other.name);
         // Asked for first: a reference that is at fault ends the run before it begins.
         task->pictures = askForReference(backend_, {task->reference, rubric_}, one.path);
         tasks_.push_back(std::move(task));
@@ -161,7 +165,7 @@ void Batch::gradeOne(std::size_t submission, std::size_t task) {
     Entry& entry = entries_[submission * names_.size() + task];
     try {
         worker::GradeTask::Request job;
-        job.submission = readSubject(submissions_[submission].path, names_[task].name);
+        job.submission = readSubmission(submissions_[submission], tasks_[task]->wanted);
         job.submission.job.options.missing = options_.missing;
         job.reference = tasks_[task]->reference;
         job.rubric = rubric_;

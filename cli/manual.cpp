@@ -31,7 +31,7 @@ std::string roff(const std::string& text) {
     return out;
 }
 
-std::string upper(std::string text) {
+std::string capitals(std::string text) {
     for (char& c : text) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
     return text;
 }
@@ -55,7 +55,7 @@ void writeOptions(std::ostream& out, const CommandRow& command) {
         if (std::find(groups.begin(), groups.end(), option.group) == groups.end())
             groups.push_back(option.group);
     for (const std::string& group : groups) {
-        out << ".SH " << (group == "Positionals" ? "ARGUMENTS" : "\"" + upper(group) + "\"")
+        out << ".SH " << (group == "Positionals" ? "ARGUMENTS" : "\"" + capitals(group) + "\"")
             << "\n";
         for (const OptionRow& option : command.options)
             if (option.group == group) writeOption(out, option);
@@ -71,7 +71,7 @@ void writeExitStatus(std::ostream& out) {
 }
 
 void writeHead(std::ostream& out, const std::string& page, const std::string& summary) {
-    out << ".TH " << upper(page) << " 1 \"\" \"farol " << server::projectVersion()
+    out << ".TH " << capitals(page) << " 1 \"\" \"farol " << server::projectVersion()
         << "\" \"User Commands\"\n.SH NAME\n"
         << page << " \\- " << roff(summary) << "\n";
 }

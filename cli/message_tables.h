@@ -6,6 +6,7 @@
 #include "cli/messages.h"
 #include "core/messages.h"
 #include "generator/messages.h"
+#include "grade/messages.h"
 #include "image/messages.h"
 #include "render/plan/messages.h"
 #include "scene/messages.h"
@@ -16,10 +17,10 @@ namespace farol::cli {
 
 /// The message tables of all floors, from core upwards.
 inline std::vector<std::span<const MessageRow>> messageTables() {
-    return {kCoreMessages,           image::kImageMessages,   scene::kReadMessages,
-            scene::kRepairMessages,  scene::kFilesMessages,   generator::kGeneratorMessages,
-            render::kRenderMessages, worker::kWorkerMessages, server::kServerMessages,
-            cli::kCliMessages};
+    return {kCoreMessages,           image::kImageMessages, scene::kReadMessages,
+            scene::kRepairMessages,  scene::kFilesMessages, generator::kGeneratorMessages,
+            render::kRenderMessages, grade::kGradeMessages, worker::kWorkerMessages,
+            server::kServerMessages, cli::kCliMessages};
 }
 
 /// Finds the English template of an id.

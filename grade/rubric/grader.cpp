@@ -10,6 +10,7 @@
 #include "grade/images/compare.h"
 #include "grade/images/comparison_cost.h"
 #include "grade/images/measures.h"
+#include "grade/messages.h"
 #include "grade/rubric/drawing.h"
 #include "grade/rubric/lent_assets.h"
 #include "grade/rubric/score.h"
@@ -93,7 +94,7 @@ struct Grader::State {
     std::shared_ptr<Reference> reference(const Subject& given, const Rubric& rubric,
                                          const std::string& rubricText) {
         const std::string key = contentDigest(given.picture.value_or("")) + identityOf(given.job) +
-                                given.task + rubricText;
+                                given.wanted.task + rubricText;
         if (const auto* known = references.find(key)) return *known;
         const Subject subject = opened(given);
         auto made = std::make_shared<Reference>();
@@ -381,28 +382,24 @@ Grade Grader::grade(const Subject& reference, const Subject& given, const Rubric
     Subject submission = given;
     bool scenes = !against->screen;
     try {
-        submission = opened(given);
+        submission = opened(given, filesNamedIn(against->job.xml));
         const bool isImage = scenes && submission.picture.has_value();
         scenes = scenes && !isImage;
         if (scenes)
             state_->compare(*against, submission, rubric, grade, evidence, diagnosis);
         else
             state_->comparePictures(*against, submission, rubric, grade);
+        append(grade.diagnostics, submission.notes);
         if (isImage && !rubric.takesImages) {
             grade.similarity = 1.0 - grade.views.front().measured.at(&mainMetric()).loss;
-            grade.notGraded =
-                NotGraded{"grade.image",
-                          "an image was handed in where a scene is expected; hand in the "
-                          "scene's .xml file"};
+            grade.notGraded = NotGraded{"grade.image", message<"grade.image">().text};
         }
     } catch (const Error& error) {
         // What the service allows for a request is no fault of the submission's.
         if (error.code() == "limit.cost") throw;
         const bool isImage = submission.picture.has_value() && !against->screen;
         grade.notGraded = isImage && !rubric.takesImages
-                              ? NotGraded{"grade.image",
-                                          "an image was handed in where a scene is expected; hand "
-                                          "in the scene's .xml file"}
+                              ? NotGraded{"grade.image", message<"grade.image">().text}
                               : NotGraded{error.code(), error.what()};
         grade.diagnostics = error.diagnostics();
         grade.views.clear();

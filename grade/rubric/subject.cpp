@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/text.h"
+#include "grade/messages.h"
 #include "scene/files/archive.h"
 
 namespace farol::grade {
@@ -13,48 +14,43 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// In UTF-8: names of one task may come from systems that write them otherwise.
-std::string stemOf(const std::string& path) {
-    return lowerCase(nameToUtf8(fs::path(path).stem().string()));
-}
-
 /// Throws Error grade.empty-file.
 std::string contentOf(const scene::Assets& files, const std::string& name,
                       const std::string& where) {
     std::string bytes = files.read(name).value_or("");
-    if (bytes.empty())
-        throw Error("grade.empty-file",
-                    "file " + farol::quoted(name) + " is empty (0 bytes); hand in the file again",
-                    {where, 0, 0});
+    if (bytes.empty()) throw Error(message<"grade.empty-file">("name"_arg = name), {where, 0, 0});
     return bytes;
 }
 
 long depthOf(const std::string& path) { return std::count(path.begin(), path.end(), '/'); }
 
-/// The one of `paths` that is meant, or nothing.
-std::string chooseOf(const std::vector<std::string>& paths, const std::string& task) {
-    const auto only = [](const std::vector<std::string>& some) {
-        return some.size() == 1 ? some.front() : std::string();
-    };
-    if (!task.empty()) {
-        std::vector<std::string> named;
-        for (const std::string& path : paths)
-            if (stemOf(path) == lowerCase(task) ||
-                stemOf(fs::path(path).parent_path().string()) == lowerCase(task))
-                named.push_back(path);
-        return only(named);
-    }
-    if (paths.size() == 1) return paths.front();
-    std::vector<std::string> usual, highest;
+/// The image of the task's name; without a task the only one, or the only one that is highest.
+std::string chooseImage(const std::vector<std::string>& paths, const std::string& task) {
+    std::vector<std::string> left;
     long least = 1'000'000;
     for (const std::string& path : paths) {
-        if (stemOf(path) == "scene") usual.push_back(path);
+        if (!task.empty() && !isNamedLike(fs::path(path).stem().string(), task) &&
+            !isNamedLike(fs::path(path).parent_path().filename().string(), task))
+            continue;
         least = std::min(least, depthOf(path));
+        left.push_back(path);
     }
-    for (const std::string& path : paths)
-        if (depthOf(path) == least) highest.push_back(path);
-    const std::string scene = only(usual);
-    return scene.empty() ? only(highest) : scene;
+    std::erase_if(left, [&](const std::string& path) { return depthOf(path) > least; });
+    return left.size() == 1 ? left.front() : "";
+}
+
+/// Says what the files are instead, where they are of one foreign kind. Throws Error.
+[[noreturn]] void throwNoScene(const scene::Assets& files, const std::string& where,
+                               const Wanted& wanted, bool hasScenes) {
+    const Location place{where, 0, 0};
+    if (hasScenes || !wanted.task.empty())
+        throw Error(message<"grade.no-scene/task">("task"_arg = wanted.task), place);
+    std::set<std::string> endings;
+    for (const std::string& name : files.list()) endings.insert(fileEnding(name));
+    if (endings.size() == 1 && !endings.begin()->empty())
+        throw Error(message<"grade.no-scene/kind">("ending"_arg = nameToUtf8(*endings.begin())),
+                    place);
+    throw Error(message<"grade.no-scene/files">(), place);
 }
 
 }  // namespace
@@ -65,53 +61,58 @@ bool isPictureName(const std::string& name) {
 }
 
 Subject subjectOf(std::shared_ptr<const scene::Assets> files, const std::string& where,
-                  const std::string& task) {
-    std::vector<std::string> scenes, pictures, archives;
+                  const Wanted& wanted) {
+    std::vector<std::string> scenes, images, archives;
     for (const std::string& name : files->list()) {
-        const std::string kind = fileEnding(name);
-        if (kind == "xml") scenes.push_back(name);
-        if (isPictureName(name)) pictures.push_back(name);
+        if (fileEnding(name) == "xml") scenes.push_back(name);
+        if (isPictureName(name)) images.push_back(name);
         if (scene::isArchiveName(name)) archives.push_back(name);
     }
     Subject subject;
-    const std::string scene = chooseOf(scenes, task);
-    if (!scene.empty()) {
-        subject.job.xml = contentOf(*files, scene, where);
-        subject.job.name = fs::path(scene).filename().string();
-        subject.job.path = scene;
+    const Choice choice = chooseDocument(*files, scenes, wanted, where);
+    if (!choice.path.empty()) {
+        subject.job.xml = contentOf(*files, choice.path, where);
+        subject.job.name = fs::path(choice.path).filename().string();
+        subject.job.path = choice.path;
         subject.job.assets = std::move(files);
+        if (!choice.reason.empty())
+            subject.notes.push_back(diagnosticOf(
+                Severity::info,
+                message<"grade.chosen">("path"_arg = nameToUtf8(choice.path),
+                                        "count"_arg = scenes.size(), "reason"_arg = choice.reason),
+                {subject.job.name, 0, 0}));
         return subject;
     }
     if (scenes.empty() && archives.size() == 1) {
         subject.job.archive = contentOf(*files, archives.front(), where);
         subject.job.name = archives.front();
-        subject.task = task;
+        subject.wanted = wanted;
         return subject;
     }
     if (scenes.empty()) {
-        const std::string picture = chooseOf(pictures, task);
-        if (!picture.empty()) {
-            subject.job.name = picture;
-            subject.picture = contentOf(*files, picture, where);
+        const std::string image = chooseImage(images, wanted.task);
+        if (!image.empty()) {
+            subject.job.name = image;
+            subject.picture = contentOf(*files, image, where);
             return subject;
         }
     }
-    if (!scenes.empty() && task.empty())
-        throw Error("grade.which-scene",
-                    "it holds " + std::to_string(scenes.size()) +
-                        " .xml files, and none is called scene.xml",
-                    {where, 0, 0});
-    throw Error("grade.no-scene",
-                task.empty() ? "it holds no .xml file, archive or picture"
-                             : "it holds nothing that is called " + shown(task),
-                {where, 0, 0});
+    throwNoScene(*files, where, wanted, !scenes.empty());
 }
 
-Subject opened(const Subject& subject) {
-    if (subject.job.archive.empty()) return subject;
-    Subject inside = subjectOf(std::make_shared<const scene::ArchiveAssets>(
-                                   std::make_shared<std::string>(subject.job.archive)),
-                               subject.job.name, subject.task);
+Subject opened(const Subject& subject, const std::vector<std::string>& files) {
+    Subject inside = subject;
+    constexpr int kMaxDepth = 4;  // archives in archives
+    for (int depth = 0; !inside.job.archive.empty() && depth < kMaxDepth; ++depth) {
+        Wanted wanted = inside.wanted;
+        if (wanted.files.empty()) wanted.files = files;
+        inside = subjectOf(std::make_shared<const scene::ArchiveAssets>(
+                               std::make_shared<std::string>(std::move(inside.job.archive))),
+                           subject.job.name, wanted);
+    }
+    if (!inside.job.archive.empty())
+        throw Error(message<"grade.no-scene/deep">("max"_arg = kMaxDepth),
+                    {subject.job.name, 0, 0});
     inside.job.options = subject.job.options;
     return inside;
 }

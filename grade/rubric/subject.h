@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "grade/rubric/choice.h"
 #include "render/renderer.h"
 
 namespace farol::grade {
@@ -13,20 +14,22 @@ struct Subject {
     /// Of its options only `missing` is used; job.name also names a picture.
     render::Job job;
     std::optional<std::string> picture;  ///< the bytes of a picture file, where it is one
-    std::string task;  ///< of an archive: which of its scenes is meant; may be empty
+    Wanted wanted;                       ///< of an archive: which of its scenes is meant
+    Diagnostics notes;                   ///< which file was chosen, and why
 };
 
-/// The scene, picture or archive that is meant among files by their paths. Of several .xml files
-/// the one of the task's name (or in a folder of that name) is taken; where there is no task
-/// scene.xml, else the highest in the folders if it is the only one there. Without any .xml file it
-/// is the only archive, else the picture, chosen likewise. `where` names the files in errors.
+/// The scene, image or archive that is meant among files by their paths: chooseDocument() of the
+/// .xml files. Without any .xml file it is the only archive, else the image that has the task's
+/// name, or where there is no task the only image or the highest in the folders. `where` names the
+/// files in errors.
 /// Throws Error grade.no-scene, grade.which-scene, grade.empty-file.
 Subject subjectOf(std::shared_ptr<const scene::Assets> files, const std::string& where,
-                  const std::string& task);
+                  const Wanted& wanted);
 
-/// Opens the subject's archive, if it is one: not to be done outside the sandbox. Throws as
-/// scene::ArchiveAssets and subjectOf do.
-Subject opened(const Subject& subject);
+/// Opens the subject's archive, if it is one: not to be done outside the sandbox. `files` are what
+/// the reference names (filesNamedIn), if that is known. Throws as scene::ArchiveAssets and
+/// subjectOf do.
+Subject opened(const Subject& subject, const std::vector<std::string>& files = {});
 
 /// By the ending of the name: .png .jpg .jpeg .webp .bmp .tga.
 bool isPictureName(const std::string& name);

@@ -33,25 +33,6 @@ std::vector<std::string> documentsOf(const Assets& files, const std::vector<std:
     return documents;
 }
 
-/// Whether the first element of the text is the root of a scene. Looks at its beginning only.
-bool beginsAsScene(std::string_view text) {
-    static constexpr std::string_view kRoots[] = {"world", "scene", "xmls", "includes"};
-    for (std::size_t at = text.find('<'); at != std::string_view::npos; at = text.find('<', at)) {
-        text.remove_prefix(at + 1);
-        at = 0;
-        if (text.starts_with("!--")) {
-            const std::size_t end = text.find("-->");
-            if (end == std::string_view::npos) return false;
-            text.remove_prefix(end);
-        } else if (!text.empty() && text[0] != '?' && text[0] != '!') {
-            const std::string_view name = text.substr(0, text.find_first_of(" \t\r\n/>"));
-            return std::any_of(std::begin(kRoots), std::end(kRoots),
-                               [&](std::string_view root) { return sameWord(root, name); });
-        }
-    }
-    return false;
-}
-
 /// Adds the base names that a text may mean: what stands in quotes, and each word.
 void addNames(std::string_view text, std::set<std::string>& names) {
     constexpr std::size_t kLongest = 1024;
@@ -79,6 +60,24 @@ bool isMesh(const std::string& path) {
 }
 
 }  // namespace
+
+bool beginsAsScene(std::string_view text) {
+    static constexpr std::string_view kRoots[] = {"world", "scene", "xmls", "includes"};
+    for (std::size_t at = text.find('<'); at != std::string_view::npos; at = text.find('<', at)) {
+        text.remove_prefix(at + 1);
+        at = 0;
+        if (text.starts_with("!--")) {
+            const std::size_t end = text.find("-->");
+            if (end == std::string_view::npos) return false;
+            text.remove_prefix(end);
+        } else if (!text.empty() && text[0] != '?' && text[0] != '!') {
+            const std::string_view name = text.substr(0, text.find_first_of(" \t\r\n/>"));
+            return std::any_of(std::begin(kRoots), std::end(kRoots),
+                               [&](std::string_view root) { return sameWord(root, name); });
+        }
+    }
+    return false;
+}
 
 std::size_t Bundle::bytes() const {
     std::size_t sum = 0;

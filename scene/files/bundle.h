@@ -2,6 +2,7 @@
 
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/error.h"
@@ -22,8 +23,12 @@ inline constexpr std::size_t kMaxBundleFiles = 256;
 /// Bound on the bytes of a bundle's files.
 inline constexpr std::size_t kMaxBundleBytes = std::size_t{64} << 20U;
 
+/// Whether the first element of the text is the root of a scene: <world>, <scene>, <xmls> or
+/// <includes>, in any case. Looks at its beginning only.
+bool beginsAsScene(std::string_view text);
+
 /// Which of the files is the scene: scene.xml at the top, else the only .xml file; of several the
-/// only one that begins as a scene does (<world>, <scene>, <xmls>, <includes>), else the highest
+/// only one that begins as a scene does (beginsAsScene), else the highest
 /// of those that are called scene.xml. Throws Error bundle.no-scene, or bundle.which-scene with the
 /// candidates' names.
 std::string mainOf(const Assets& files);

@@ -84,7 +84,8 @@ TEST_CASE("a class has the marks that a fair teacher gives") {
     grade::Grader grader(renderer);
     const grade::Rubric rubric = grade::defaultRubric();
     const grade::Subject reference =
-        grade::subjectOf(filesBelow(folder / "reference"), "reference", "");
+        grade::subjectOf(filesBelow(folder / "reference"), "reference", {});
+    const grade::Wanted wanted{"", {}, grade::filesNamedIn(reference.job.xml)};
     std::vector<Mark> marks = readBands(folder / "marks.tsv");
     REQUIRE(marks.size() >= 20);
     std::string table =
@@ -94,7 +95,7 @@ TEST_CASE("a class has the marks that a fair teacher gives") {
     for (Mark& mark : marks) {
         try {
             grade::Subject submission =
-                grade::subjectOf(filesBelow(folder / "submissions" / mark.name), mark.name, "");
+                grade::subjectOf(filesBelow(folder / "submissions" / mark.name), mark.name, wanted);
             submission.job.options.missing = render::Missing::placeholder;
             const grade::Grade grade = grader.grade(reference, submission, rubric);
             if (!grade.notGraded) mark.points = grade.points;

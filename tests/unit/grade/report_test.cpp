@@ -14,8 +14,6 @@
 #include "core/bounded_json.h"
 #include "core/error.h"
 #include "core/text.h"
-#include "grade/rubric/subject.h"
-#include "scene/files/assets.h"
 #include "tests/support/paths.h"
 #include "tests/support/skip.h"
 
@@ -270,39 +268,4 @@ TEST_CASE("reports are well-formed, whatever submissions are called") {
         CHECK(part.find('<') == std::string::npos);
         CHECK(nlohmann::json::accept(part));
     }
-}
-
-TEST_CASE("the scene that is meant among files") {
-    struct Case {
-        std::map<std::string, std::string> files;
-        const char* task;
-        const char* expected;
-    };
-    const Case given = GENERATE(values<Case>({
-        {{{"a.xml", "x"}, {"t.png", "x"}}, "", "a.xml"},
-        {{{"work/a.xml", "x"}, {"work/t.png", "x"}}, "", "a.xml"},
-        {{{"a.xml", "x"}, {"scene.xml", "x"}}, "", "scene.xml"},
-        {{{"a.xml", "x"}, {"old/a.xml", "x"}}, "", "a.xml"},
-        {{{"a.xml", "x"}, {"b.xml", "x"}}, "", "grade.which-scene"},
-        {{{"a.xml", "x"}, {"b.xml", "x"}}, "B", "b.xml"},
-        {{{"one/s.xml", "x"}, {"two/s.xml", "x"}}, "two", "s.xml"},
-        {{{"a.xml", "x"}}, "b", "grade.no-scene"},
-        {{{"read.me", "x"}}, "", "grade.no-scene"},
-        {{{"shot.png", "x"}}, "", "shot.png"},
-        {{{"hand-in.zip", "x"}, {"notes.txt", "x"}}, "", "hand-in.zip"},
-        {{{"caf\xE9.xml", "x"}, {"b.xml", "x"}}, "caf\xC3\xA9", "caf\xE9.xml"},
-        {{{"a.xml", ""}}, "", "grade.empty-file"},
-        {{{"shot.png", ""}}, "", "grade.empty-file"},
-        {{{"hand-in.tar", ""}}, "", "grade.empty-file"},
-        {{{"a.xml", "x"}, {"t.png", ""}}, "", "a.xml"},
-    }));
-    std::string found;
-    try {
-        found = subjectOf(std::make_shared<farol::scene::BundleAssets>(given.files), "folder",
-                          given.task)
-                    .job.name;
-    } catch (const farol::Error& error) {
-        found = error.code();
-    }
-    CHECK(found == given.expected);
 }

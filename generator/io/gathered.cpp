@@ -54,7 +54,8 @@ Role componentOf(std::string_view word, Role list) {
 }
 
 Role roleOf(std::string_view word) {
-    const std::string lower = lowerCase(word.substr(0, 24));
+    std::string lower = lowerCase(word.substr(0, 24));
+    while (lower.size() > 1 && isDigit(lower.back())) lower.pop_back();  // "v1:", "Triangle2"
     for (const RoleWords& row : roleWords())
         for (const std::string_view known : row.words)
             if (lower == known) return row.role;

@@ -196,12 +196,18 @@ class ElementReader {
             while (!name.empty() && isSpace(name.back())) name.remove_suffix(1);
             const std::size_t start = name.find_last_of(" \t\r\n/");
             if (start != std::string_view::npos) name.remove_prefix(start + 1);
-            const std::size_t quote = rest.find_first_of("\"'", equals);
-            if (quote == std::string_view::npos) break;
-            const std::size_t close = rest.find(rest[quote], quote + 1);
+            std::size_t begin = equals + 1;
+            while (begin < rest.size() && isSpace(rest[begin])) ++begin;
+            if (begin == rest.size()) break;
+            // Without quotes a value ends at a blank.
+            const bool isQuoted = rest[begin] == '"' || rest[begin] == '\'';
+            const std::size_t close =
+                isQuoted ? rest.find(rest[begin], begin + 1)
+                         : std::min(rest.find_first_of(" \t\r\n/", begin), rest.size());
             if (close == std::string_view::npos) break;
-            const std::vector<double> values = numbersOf(rest.substr(quote + 1, close - quote - 1));
-            rest.remove_prefix(close + 1);
+            if (isQuoted) ++begin;
+            const std::vector<double> values = numbersOf(rest.substr(begin, close - begin));
+            rest.remove_prefix(std::min(close + 1, rest.size()));
             if (values.empty()) continue;
             const std::string lower = lowerCase(name.substr(0, 24));
             if (values.size() > 1 && roleOf(lower) != Role::component) {
@@ -303,7 +309,10 @@ class ElementReader {
 
 bool looksLikeElements(std::string_view bytes) {
     const std::size_t first = bytes.find_first_not_of(" \t\r\n");
-    return first != std::string_view::npos && bytes[first] == '<';
+    if (first == std::string_view::npos || first + 1 >= bytes.size() || bytes[first] != '<')
+        return false;
+    const char next = bytes[first + 1];  // "<0, 1, 2>" is a place
+    return isLetterOf(next) || next == '!' || next == '?';
 }
 
 RawMesh decodeElements(std::string_view bytes, const std::string& fileName) {

@@ -8,21 +8,12 @@
 
 #include "core/text.h"
 #include "generator/io/formats.h"
+#include "generator/io/obj_text.h"
 #include "generator/io/polygon.h"
-#include "generator/io/writer.h"
+#include "generator/messages.h"
 
 namespace farol::generator::io {
 namespace {
-
-/// The next word of a line; empty at its end.
-std::string_view nextWord(std::string_view& line) {
-    const std::size_t begin = line.find_first_not_of(" \t\r");
-    if (begin == std::string_view::npos) return line = {};
-    const std::size_t end = std::min(line.find_first_of(" \t\r", begin), line.size());
-    const std::string_view word = line.substr(begin, end - begin);
-    line.remove_prefix(end);
-    return word;
-}
 
 /// A face's corner: numbers of position, texture coordinate and normal (or group of shared
 /// normals), from 0; -1 is none.
@@ -30,23 +21,35 @@ using Corner = std::array<std::int32_t, 3>;
 
 class Reader {
   public:
-    explicit Reader(const std::string& file) : file_(file) {}
+    /// `base` is what indices count from: 1, or 0 in some home-made files.
+    Reader(const std::string& file, int base) : file_(file), base_(base) {}
+
+    /// Reads the faces of a file whose vertices are known already: they stand after the faces.
+    void readFacesOnly() {
+        facesOnly_ = true;
+        problem_.reset();
+        mesh_.leftOut.clear();
+    }
+    bool lostAllFaces() const { return corners_.empty() && problem_.has_value(); }
 
     void readLine(std::string_view line, int number) {
         line_ = number;
         line = line.substr(0, line.find('#'));
-        const std::string_view keyword = nextWord(line);
+        std::string_view keyword = nextObjWord(line);
         if (keyword.empty()) return;
+        if (keyword == "V" || keyword == "F") keyword = keyword == "V" ? "v" : "f";
+        const bool isList = keyword == "v" || keyword == "vt" || keyword == "vn";
+        if (isList && facesOnly_) return;
         if (keyword == "v")
             readVertex(line);
         else if (keyword == "vt")
             add(uvs_, dvec2(vector(line, 2, 1, true)));
         else if (keyword == "vn")
-            add(normals_, glm::vec3(vector(line, 3, 3, true)));
+            readNormal(line);
         else if (keyword == "f" || keyword == "fo")
             readFace(line);
         else if (keyword == "s")
-            smoothing_ = smoothingOf(nextWord(line));
+            smoothing_ = smoothingOf(nextObjWord(line));
         else if (keyword == "usemtl")
             chooseMaterial(trimmed(line));
         else if (keyword == "l" || keyword == "p")
@@ -56,6 +59,7 @@ class Reader {
     }
 
     RawMesh take() {
+        if (corners_.empty() && !problem_ && fileEnding(file_) != "obj") takeSoup();
         if (corners_.empty()) {
             if (problem_) throw Error(Diagnostics{*problem_});
             fail("mesh.empty", "the OBJ file holds no faces");
@@ -92,10 +96,11 @@ class Reader {
     }
 
     /// Up to `size` numbers, of which `needed` must be there. NaN only where it does no harm.
-    dvec3 vector(std::string_view& line, int size, int needed, bool nanAllowed) const {
+    dvec3 vector(std::string_view& line, int size, int needed, bool nanAllowed) {
         dvec3 value(0.0);
-        for (int k = 0; k < size; ++k) {
-            const std::string_view word = nextWord(line);
+        words_ = 0;
+        for (int k = 0; k < size; ++k, ++words_) {
+            const std::string_view word = nextObjWord(line);
             if (word.empty() && k >= needed) break;
             if (word.empty())
                 fail("mesh.truncated", "expected " + std::to_string(needed) + " numbers");
@@ -108,12 +113,36 @@ class Reader {
         return value;
     }
 
+    /// A normal of less than three numbers has no direction, and is replaced as these are.
+    void readNormal(std::string_view line) {
+        glm::dvec3 normal = vector(line, 3, 0, true);
+        if (words_ < 3) normal = glm::dvec3(std::nan(""));
+        add(normals_, glm::vec3(normal));
+    }
+
+    /// Every three vertices of a file without faces are one, with the normals and coordinates of
+    /// the same number.
+    void takeSoup() {
+        if (positions_.empty() || positions_.size() % 3 != 0) return;
+        const bool uvs = uvs_.size() == positions_.size();
+        const bool normals = normals_.size() == positions_.size();
+        for (std::size_t i = 0; i < positions_.size(); i += 3) {
+            std::string face;
+            for (std::size_t k = i + 1; k <= i + 3; ++k) {
+                const std::string number = std::to_string(k - 1 + static_cast<std::size_t>(base_));
+                face += number + (uvs || normals ? "/" : "") + (uvs ? number : "") +
+                        (normals ? "/" + number : "") + " ";
+            }
+            readFace(face);
+        }
+    }
+
     /// x y z, and perhaps a weight, or red, green and blue.
     void readVertex(std::string_view line) {
         add(positions_, vector(line, 3, 3, false));
         std::array<double, 4> more{};
         std::size_t count = 0;
-        for (std::string_view word = nextWord(line); !word.empty(); word = nextWord(line)) {
+        for (std::string_view word = nextObjWord(line); !word.empty(); word = nextObjWord(line)) {
             const std::optional<double> number = numberOf(word, {file_, line_, 1});
             if (!number) fail("mesh.syntax", quoted(word) + " is not a number");
             if (count < more.size()) more[count] = *number;
@@ -164,6 +193,7 @@ class Reader {
         std::int64_t number = 0;
         const char* end = word.data() + word.size();
         const auto [stop, failed] = std::from_chars(word.data(), end, number);
+        if (base_ == 0 && number >= 0) ++number;
         if (stop != end || failed == std::errc::invalid_argument || number == 0)
             fail("mesh.syntax", quoted(word) + " is no index");
         const auto count = static_cast<std::int64_t>(size);
@@ -206,7 +236,7 @@ class Reader {
 
     void readFace(std::string_view line) {
         face_.clear();
-        for (std::string_view word = nextWord(line); !word.empty(); word = nextWord(line)) {
+        for (std::string_view word = nextObjWord(line); !word.empty(); word = nextObjWord(line)) {
             const std::optional<Corner> one = corner(word);
             if (!one) {
                 ++mesh_.leftOut["faces with an index out of range"];
@@ -372,6 +402,9 @@ class Reader {
     };
 
     const std::string& file_;
+    int base_;
+    bool facesOnly_ = false;
+    int words_ = 0;  ///< that `vector` read
     int line_ = 1;
     RawMesh mesh_;
     std::vector<dvec3> positions_, colors_;  ///< colours: as long as positions once there is one
@@ -393,73 +426,23 @@ class Reader {
 
 }  // namespace
 
-std::string encodeObj(const Mesh& mesh) {
-    Writer out;
-    for (std::size_t i = 0; i < mesh.positions().size(); ++i) {
-        out.text("v ");
-        out.place(mesh, i);
-        for (int k = 0; k < 3 && !mesh.colors().empty(); ++k) {
-            out.text(" ");
-            out.number(static_cast<float>(mesh.colors()[i][k]) / 255.0F);
-        }
-        out.text("\n");
-    }
-    if (mesh.normals().empty()) out.text("s 1\n");  // else they would be facets when read
-    for (const glm::vec2& uv : mesh.uvs()) out.row({uv.x, uv.y}, "vt");
-    for (const glm::vec3& n : mesh.normals()) out.row({n.x, n.y, n.z}, "vn");
-    for (std::size_t i = 0; i < mesh.indices().size(); ++i) {
-        const std::uint64_t number = std::uint64_t{mesh.indices()[i]} + 1;
-        out.text(i % 3 == 0 ? "f " : " ");
-        out.number(number);
-        if (!mesh.uvs().empty() || !mesh.normals().empty()) out.text("/");
-        if (!mesh.uvs().empty()) out.number(number);
-        if (!mesh.normals().empty()) {
-            out.text("/");
-            out.number(number);
-        }
-        if (i % 3 == 2) out.text("\n");
-    }
-    return out.take();
-}
-
-bool looksLikeObj(std::string_view bytes) {
-    for (int looked = 0; !bytes.empty() && looked < 1000; ++looked) {
-        const std::size_t end = std::min(bytes.find('\n'), bytes.size());
-        std::string_view line = bytes.substr(0, end);
-        bytes.remove_prefix(std::min(end + 1, bytes.size()));
-        const std::string_view word = nextWord(line);
-        if (word.empty() || word[0] == '#') continue;
-        for (const char* keyword : {"v", "vt", "vn", "f", "o", "g", "s", "mtllib", "usemtl"})
-            if (word == keyword) return true;
-        return false;
-    }
-    return false;
-}
-
 RawMesh decodeObj(std::string_view bytes, const std::string& fileName) {
-    Reader reader(fileName);
-    std::string joined;  // a line that goes on after a backslash
-    int number = 0;
-    while (!bytes.empty()) {
-        ++number;
-        const std::size_t end = std::min(bytes.find('\n'), bytes.size());
-        std::string_view line = bytes.substr(0, end);
-        bytes.remove_prefix(std::min(end + 1, bytes.size()));
-        if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
-        if (!line.empty() && line.back() == '\\') {
-            joined.append(line.substr(0, line.size() - 1)).append(" ");
-            continue;
-        }
-        if (joined.empty()) {
-            reader.readLine(line, number);
-        } else {
-            joined += line;
-            reader.readLine(joined, number);
-            joined.clear();
-        }
+    const int base = objIndexBase(bytes);
+    Reader reader(fileName, base);
+    const auto readLines = [&] {
+        eachObjLine(bytes,
+                    [&](std::string_view line, int number) { reader.readLine(line, number); });
+    };
+    readLines();
+    if (reader.lostAllFaces()) {
+        reader.readFacesOnly();
+        readLines();
     }
-    if (!joined.empty()) reader.readLine(joined, number);
-    return reader.take();
+    RawMesh mesh = reader.take();
+    if (base == 0)
+        mesh.findings.push_back(
+            diagnosticOf(Severity::warning, message<"mesh.assumed/base">(), {fileName, 0, 0}));
+    return mesh;
 }
 
 }  // namespace farol::generator::io

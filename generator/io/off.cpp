@@ -1,10 +1,13 @@
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cctype>
+#include <cmath>
 
 #include "core/text.h"
 #include "generator/io/formats.h"
 #include "generator/io/polygon.h"
+#include "generator/messages.h"
 
 namespace farol::generator::io {
 namespace {
@@ -163,6 +166,73 @@ class OffReader {
     std::optional<Diagnostic> problem_;  ///< of the first face that was lost
 };
 
+/// Makes one row of counts that stand in a line each.
+void joinCounts(NumberRows& rows) {
+    std::size_t alone = 0;
+    while (alone < std::min<std::size_t>(rows.rows.size(), 3) && rows.rows[alone].count == 1)
+        ++alone;
+    if (alone < 2) return;
+    rows.rows[0].count = static_cast<std::uint32_t>(alone);
+    rows.rows.erase(rows.rows.begin() + 1, rows.rows.begin() + static_cast<std::ptrdiff_t>(alone));
+}
+
+/// Geomview's binary form: big-endian 32-bit counts, floats and indices; a face has the number of
+/// its corners, these, and a number of colour components.
+RawMesh decodeBinaryOff(std::string_view bytes, const OffHead& head, const std::string& fileName) {
+    std::size_t at = 0;
+    const auto word = [&]() -> std::uint32_t {
+        if (bytes.size() - at < 4) throw Error(message<"mesh.truncated/off">(), {fileName, 0, 0});
+        std::uint32_t value = 0;
+        for (int k = 0; k < 4; ++k) value = value << 8U | static_cast<unsigned char>(bytes[at++]);
+        return value;
+    };
+    const std::size_t vertices = word(), faces = word();
+    word();  // edges
+    const std::size_t width = 3 + (head.weights ? 1 : 0) + (head.normals ? 3 : 0) +
+                              (head.colors ? 4 : 0) + (head.uvs ? 2 : 0);
+    checkCounts(vertices, faces, fileName);
+    if (vertices > bytes.size() / (4 * width))
+        throw Error(message<"mesh.truncated/off">(), {fileName, 0, 0});
+    RawMesh mesh;
+    for (std::size_t i = 0; i < vertices; ++i) {
+        glm::dvec3 place;
+        for (std::size_t k = 0; k < width; ++k) {
+            const double value = std::bit_cast<float>(word());
+            if (k < 3) place[static_cast<int>(k)] = value;
+            if (k < 3 && !(std::abs(value) <= kMaxCoordinate))
+                throw Error(message<"mesh.number/place">(), {fileName, 0, 0});
+        }
+        mesh.positions.push_back(place);
+    }
+    std::vector<std::uint32_t> face;
+    std::vector<glm::dvec3> places;
+    std::vector<FaceTriangle> triangles;
+    for (std::size_t i = 0; i < faces; ++i) {
+        const std::size_t corners = word();
+        if (corners > bytes.size() / 4)
+            throw Error(message<"mesh.truncated/off">(), {fileName, 0, 0});
+        checkTriangles(mesh.triangles() + corners, fileName);
+        face.clear();
+        places.clear();
+        for (std::size_t k = 0; k < corners; ++k) {
+            face.push_back(word());
+            if (face.back() < vertices) places.push_back(mesh.positions[face.back()]);
+        }
+        const std::size_t colors = word();
+        if (colors > 4) throw Error(message<"mesh.truncated/off">(), {fileName, 0, 0});
+        for (std::size_t k = 0; k < colors; ++k) word();
+        if (colors > 0) ++mesh.leftOut["colours of faces"];
+        if (places.size() < corners) ++mesh.leftOut["faces with an index out of range"];
+        if (corners < 3) ++mesh.leftOut["faces of less than three corners"];
+        if (corners < 3 || places.size() < corners) continue;
+        triangulate(places, triangles);
+        for (const auto& [a, b, c] : triangles)
+            mesh.indices.insert(mesh.indices.end(), {face[a], face[b], face[c]});
+    }
+    if (mesh.indices.empty()) throw Error(message<"mesh.empty/off">(), {fileName, 0, 0});
+    return mesh;
+}
+
 }  // namespace
 
 bool looksLikeOff(std::string_view bytes, const std::string& fileName) {
@@ -174,8 +244,12 @@ RawMesh decodeOff(std::string_view bytes, const std::string& fileName) {
     const std::string_view before = bytes.substr(0, head.length);
     const auto lines = static_cast<int>(std::count(before.begin(), before.end(), '\n'));
     const std::size_t column = before.size() - (before.rfind('\n') + 1);  // npos + 1 is 0
-    const NumberRows rows =
-        parseRows(bytes.substr(head.length), fileName, 1 + lines, static_cast<int>(column) + 1);
+    std::string_view rest = bytes.substr(head.length);
+    if (sameWord(trimmed(rest.substr(0, rest.find('\n'))), "binary"))
+        return decodeBinaryOff(rest.substr(std::min(rest.find('\n'), rest.size() - 1) + 1), head,
+                               fileName);
+    NumberRows rows = parseRows(rest, fileName, 1 + lines, static_cast<int>(column) + 1);
+    joinCounts(rows);
     return OffReader(rows, head).read();
 }
 

@@ -1,33 +1,53 @@
 #include "generator/io/patch_file.h"
 
+#include <algorithm>
+
 #include "generator/io/plain_text.h"
 #include "generator/io/rows.h"
 
 namespace farol::generator::io {
 namespace {
 
-/// A count that stands alone on its row, with that many rows of `width` numbers after it.
-std::size_t readCount(const NumberRows& rows, std::size_t at, std::uint32_t width,
+/// The row that holds the number `index`.
+const Row& rowOf(const NumberRows& rows, std::size_t index) {
+    const auto after =
+        std::upper_bound(rows.rows.begin(), rows.rows.end(), index,
+                         [](std::size_t wanted, const Row& row) { return wanted < row.first; });
+    return *(after - 1);
+}
+
+/// A count of lists of `width` numbers that follow it, at least one.
+std::size_t readCount(const NumberRows& rows, std::size_t at, std::size_t width,
                       const std::string& what) {
-    if (at >= rows.rows.size())
+    if (at >= rows.values.size())
         rows.refuse("mesh.truncated", rows.rows.back(),
                     "the file ends before the number of " + what);
-    const Row& row = rows.rows[at];
-    const double value = *rows.at(row);
-    if (row.count != 1 || !isCount(value) || value < 1)
+    const Row& row = rowOf(rows, at);
+    const double value = rows.values[at];
+    if (!isCount(value) || value < 1)
         rows.refuse("mesh.count", row, "expected the number of " + what);
-    const std::size_t left = rows.rows.size() - at - 1;
+    const std::size_t left = (rows.values.size() - at - 1) / width;
     if (value > static_cast<double>(left))
         rows.refuse("mesh.truncated", row,
                     "the file says " + std::to_string(static_cast<long long>(value)) + " " + what +
-                        " but only " + std::to_string(left) + " lines follow");
-    const auto count = static_cast<std::size_t>(value);
-    for (std::size_t i = at + 1; i <= at + count; ++i)
-        if (rows.rows[i].count != width)
-            rows.refuse("mesh.syntax", rows.rows[i],
-                        "expected " + std::to_string(width) + " numbers, not " +
-                            std::to_string(rows.rows[i].count));
-    return count;
+                        " but only " + std::to_string(left) + " follow");
+    return static_cast<std::size_t>(value);
+}
+
+/// Whether a file is nothing but points: each sixteen of them are a patch.
+bool isBare(const NumberRows& rows) {
+    return rows.rows.size() % 16 == 0 && std::all_of(rows.rows.begin(), rows.rows.end(),
+                                                     [](const Row& row) { return row.count == 3; });
+}
+
+PatchFile readBare(const NumberRows& rows) {
+    PatchFile out;
+    for (const Row& row : rows.rows) out.points.push_back(placeAt(rows, row, rows.at(row)));
+    for (std::size_t i = 0; i < out.points.size(); ++i) {
+        if (i % 16 == 0) out.patches.emplace_back();
+        out.patches.back()[i % 16] = static_cast<std::uint32_t>(i);
+    }
+    return out;
 }
 
 }  // namespace
@@ -35,21 +55,28 @@ std::size_t readCount(const NumberRows& rows, std::size_t at, std::uint32_t widt
 PatchFile parsePatchFile(std::string_view bytes, const std::string& fileName) {
     std::string storage;
     const NumberRows rows = parseRows(plainText(bytes, storage), fileName);
+    if (isBare(rows)) return readBare(rows);
+    const std::vector<double>& values = rows.values;
     const std::size_t patches = readCount(rows, 0, 16, "patches");
-    const std::size_t pointsAt = patches + 1;
-    const std::size_t points = readCount(rows, pointsAt, 3, "control points");
-    if (rows.rows.size() > pointsAt + 1 + points)
-        rows.refuse("mesh.syntax", rows.rows[pointsAt + 1 + points],
+    const std::size_t after = 1 + 16 * patches;
+    // The points' own count may be left out.
+    const bool isCounted = (values.size() - after) % 3 == 1;
+    const std::size_t first = after + (isCounted ? 1 : 0);
+    const std::size_t left = (values.size() - first) / 3;
+    if (!isCounted && left == 0) readCount(rows, after, 3, "control points");
+    const std::size_t points = isCounted ? readCount(rows, after, 3, "control points") : left;
+    if ((values.size() - first) != 3 * points)
+        rows.refuse("mesh.syntax", rowOf(rows, std::min(first + 3 * points, values.size() - 1)),
                     "the file goes on after its " + std::to_string(points) + " control points");
     PatchFile out;
-    for (std::size_t i = 1; i <= patches; ++i) {
-        const Row& row = rows.rows[i];
-        for (std::size_t k = 0; auto& index : out.patches.emplace_back())
-            index = indexIn(rows, row, rows.at(row)[k++], points);
+    const double base = indexBase(&values[1], &values[1] + 16 * patches, points);
+    for (std::size_t i = 0; i < 16 * patches; ++i) {
+        if (i % 16 == 0) out.patches.emplace_back();
+        out.patches.back()[i % 16] =
+            indexIn(rows, rowOf(rows, 1 + i), values[1 + i] - base, points);
     }
-    for (std::size_t i = pointsAt + 1; i < rows.rows.size(); ++i) {
-        out.points.push_back(placeAt(rows, rows.rows[i], rows.at(rows.rows[i])));
-    }
+    for (std::size_t at = first; at < values.size(); at += 3)
+        out.points.push_back(placeAt(rows, rowOf(rows, at), &values[at]));
     return out;
 }
 

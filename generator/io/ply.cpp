@@ -195,11 +195,12 @@ class FaceReader {
     FaceReader(Values& values, RawMesh& mesh, const std::string& file)
         : values_(values), mesh_(mesh), file_(file) {}
 
+    std::size_t count() const { return count_; }  ///< faces that were read
     void readFaces(const PlyElement& element) {
         const std::vector<PlyProperty> properties = propertiesOf(element);
         const PlyElement known{element.name, element.count, properties, element.line};
         const Slots slots(known);
-        for (std::size_t i = 0; i < element.count; ++i) {
+        for (std::size_t i = 0; i < element.count; ++i, ++count_) {
             std::array<double, kSlots> v{};
             const std::size_t before = mesh_.triangles();
             for (std::size_t k = 0; k < properties.size(); ++k) {
@@ -329,6 +330,7 @@ class FaceReader {
     std::vector<std::uint32_t> face_;
     std::vector<glm::dvec3> places_;
     std::vector<FaceTriangle> triangles_;
+    std::size_t count_ = 0;
     std::vector<glm::u8vec4> colors_;  ///< of triangles
     std::optional<Diagnostic> problem_;
 };
@@ -390,7 +392,7 @@ std::string encodePly(const Mesh& mesh) {
 }
 
 bool looksLikePly(std::string_view bytes) {
-    return bytes.substr(0, 4) == "ply\n" || bytes.substr(0, 5) == "ply\r\n";
+    return sameWord(bytes.substr(0, 3), "ply") && bytes.size() > 3 && isBlank(bytes[3]);
 }
 
 RawMesh decodePly(std::string_view bytes, const std::string& fileName, bool facesNeeded) {
@@ -402,7 +404,18 @@ RawMesh decodePly(std::string_view bytes, const std::string& fileName, bool face
         if (element.name == "vertex") {
             readVertices(values, element, mesh);
         } else if (element.name == "face") {
-            faces.readFaces(element);
+            try {
+                faces.readFaces(element);
+            } catch (const Error& error) {
+                // A file that is cut off has the faces before that.
+                if (error.code() != "mesh.truncated" || mesh.triangles() == 0) throw;
+                mesh.findings.push_back(
+                    diagnosticOf(Severity::warning,
+                                 message<"mesh.count-wrong/ply">("count"_arg = element.count,
+                                                                 "held"_arg = faces.count()),
+                                 {fileName, 0, 0}));
+                break;
+            }
         } else if (element.name == "tristrips") {
             faces.readStrips(element);
         } else {

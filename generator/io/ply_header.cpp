@@ -49,7 +49,9 @@ class HeaderReader {
             else if (header_.lines > 1)
                 fail("mesh.syntax", "unknown line in the PLY header");
         }
-        if (!formatted) fail("mesh.syntax", "the PLY header names no format");
+        // Home-made files without a format line are text.
+        if (!formatted && bytes_.find('\0') != std::string_view::npos)
+            fail("mesh.syntax", "the PLY header names no format");
         header_.bytes = at;
         checkElementCounts();
         return header_;

@@ -29,7 +29,8 @@ bool isNoNumber(std::string_view token) {
 
 bool isSeparator(char c) {
     return c == ' ' || c == '\t' || c == ',' || c == ';' || c == '\r' || c == '\v' || c == '\f' ||
-           c == '(' || c == ')' || c == '[' || c == ']' || c == '{' || c == '}' || c == '|';
+           c == '(' || c == ')' || c == '[' || c == ']' || c == '{' || c == '}' || c == '|' ||
+           c == '<' || c == '>';
 }
 
 std::optional<double> numberOf(std::string_view token, const Location& where) {

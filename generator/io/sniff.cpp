@@ -5,8 +5,10 @@
 
 #include "core/text.h"
 #include "generator/io/formats.h"
+#include "generator/io/layout.h"
 #include "generator/io/patch_file.h"
 #include "generator/io/plain_text.h"
+#include "generator/messages.h"
 #include "generator/primitives/patch.h"
 
 namespace farol::generator::io {
@@ -181,7 +183,8 @@ const std::vector<MeshForm>& formTable() {
          [](const MeshText& t) { return decodeOff(t.bytes, t.file); }},
         {"patches", [](const MeshText& t) { return t.ending == "patch"; },
          [](const MeshText& t) { return decodePatches(t.bytes, t.file); }},
-        {"elements", [](const MeshText& t) { return looksLikeElements(t.bytes); },
+        {"elements",
+         [](const MeshText& t) { return t.ending != "obj" && looksLikeElements(t.bytes); },
          [](const MeshText& t) { return decodeElements(t.bytes, t.file); }},
         {"OBJ from 0", isHomeMadeObj,
          [](const MeshText& t) { return decodeLabelled(t.bytes, t.file); }},
@@ -198,6 +201,12 @@ const std::vector<MeshForm>& formTable() {
          [](const MeshText& t) { return decodeNumbered(*t.rows); }},
         {"three counts", [](const MeshText& t) { return t.rows && hasThreeCounts(*t.rows); },
          decodeThreeCounts},
+        {"patches in rows",
+         [](const MeshText& t) {
+             const std::size_t count = rowCount(t);
+             return count > 2 && widthOf(t, 0) == 1 && widthOf(t, 1) == 16;
+         },
+         [](const MeshText& t) { return decodePatches(t.bytes, t.file); }},
         {"two counts",
          [](const MeshText& t) {
              const std::size_t count = rowCount(t);
@@ -248,6 +257,70 @@ const MeshForm* recogniseForm(MeshText& text) {
     return nullptr;
 }
 
+/// Whether the form is recognised by its numbers alone, so that another reading may be meant.
+bool isLoose(const MeshForm& form) {
+    const std::string_view name = form.name;
+    return &form >= &formTable()[kFirstOfRows] || name == "OBJ from 0";
+}
+
+bool hasDigits(std::string_view bytes) { return std::any_of(bytes.begin(), bytes.end(), isDigit); }
+
+/// What a file is that is no mesh by its first bytes; empty for any other.
+std::string_view kindOfOther(std::string_view bytes) {
+    struct Kind {
+        std::string_view start, name;
+    };
+    using std::string_view_literals::operator""sv;
+    static constexpr Kind kKinds[] = {
+        {"\x89PNG", "an image"},
+        {"\xFF\xD8\xFF", "an image"},
+        {"GIF8", "an image"},
+        {"%PDF-", "a PDF document"},
+        {"PK\3\4", "a zip archive"},
+        {"Rar!", "a rar archive"},
+        {"7z\xBC\xAF", "a 7z archive"},
+        {"\x1f\x8b", "a gzip archive"},
+        {"\x7f"
+         "ELF",
+         "a program"},
+        {"version https://git-lfs", "a pointer of Git LFS, whose file was not fetched"},
+        {"BLENDER", "a Blender file"},
+        {"Kaydara FBX", "an FBX file"},
+        {"glTF\2", "a glTF file"},
+        {"<!DOCTYPE html", "a web page"},
+        {"<html", "a web page"}};
+    for (const Kind& kind : kKinds)
+        if (sameWord(bytes.substr(0, kind.start.size()), kind.start)) return kind.name;
+    return "";
+}
+
+/// Titles and notes among the numbers ("plane", "size 2") left out; else a word before each row;
+/// else lists in another order. Nothing where none of these can be read.
+std::optional<RawMesh> readOtherwise(const MeshText& text) {
+    std::vector<std::string> texts{withoutTitles(text.bytes), withoutFirstWords(text.bytes)};
+    for (std::size_t i = 0; i < texts.size(); ++i) {
+        if (texts[i] == text.bytes) continue;
+        MeshText bare{texts[i], text.file, text.ending, {}, {}};
+        const MeshForm* form = recogniseForm(bare);
+        if (form == nullptr) continue;
+        try {
+            RawMesh mesh = form->read(bare);
+            if (i == 0) ++mesh.leftOut["titles"];
+            return mesh;
+        } catch (const Error& error) {
+            if (!error.code().starts_with("mesh.")) throw;
+        }
+    }
+    if (text.rows) return guessLayout(*text.rows);
+    for (const std::string& bare : texts) {
+        MeshText rows{bare, text.file, text.ending, {}, {}};
+        parseAsRows(rows);
+        if (!rows.rows) continue;
+        if (auto mesh = guessLayout(*rows.rows)) return mesh;
+    }
+    return guessBinaryLayout(text.bytes, text.file);
+}
+
 }  // namespace
 
 std::span<const MeshForm> meshForms() { return formTable(); }
@@ -255,19 +328,23 @@ std::span<const MeshForm> meshForms() { return formTable(); }
 RawMesh decodeRaw(std::string_view bytes, const std::string& fileName) {
     std::string storage;
     MeshText text{plainText(bytes, storage), fileName, fileEnding(fileName), {}, {}};
-    if (const MeshForm* form = recogniseForm(text)) return form->read(text);
-    // Titles and notes among the numbers ("plane", "size 2"); else a word before each row.
-    for (const bool titles : {true, false}) {
-        const std::string stripped =
-            titles ? withoutTitles(text.bytes) : withoutFirstWords(text.bytes);
-        MeshText bare{stripped, fileName, text.ending, {}, {}};
-        const MeshForm* form = recogniseForm(bare);
-        if (form == nullptr) continue;
-        RawMesh mesh = form->read(bare);
-        if (titles) ++mesh.leftOut["titles"];
-        return mesh;
+    if (const std::string_view kind = kindOfOther(bytes); !kind.empty())
+        throw Error(message<"mesh.format/other">("kind"_arg = kind), {fileName, 0, 0});
+    const MeshForm* form = recogniseForm(text);
+    std::optional<Error> first = text.notRows;
+    if (form != nullptr) {
+        try {
+            return form->read(text);
+        } catch (const Error& error) {
+            if (!isLoose(*form) || !error.code().starts_with("mesh.")) throw;
+            first = error;
+        }
     }
-    throw Error(*text.notRows);
+    if (auto mesh = readOtherwise(text)) return std::move(*mesh);
+    if (!trimmed(text.bytes).empty() && !hasDigits(text.bytes))
+        throw Error(message<"mesh.format/words">("start"_arg = trimmed(text.bytes)),
+                    {fileName, 0, 0});
+    throw Error(*first);
 }
 
 std::string formOf(std::string_view bytes, const std::string& fileName) {

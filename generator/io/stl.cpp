@@ -36,6 +36,18 @@ bool isText(std::string_view bytes) {
            start.find("facet") != std::string::npos && start.find('\0') == std::string::npos;
 }
 
+/// Where the numbers at the start of a line end: at the next word, which "nan" and "inf" are not.
+std::size_t numbersEnd(std::string_view text) {
+    constexpr std::string_view kBetween = " \t\r,";
+    std::size_t at = 0;
+    while ((at = text.find_first_not_of(kBetween, at)) != std::string_view::npos) {
+        const char c = lowerCase(text[at]);
+        if (c >= 'a' && c <= 'z' && c != 'n' && c != 'i') return at;
+        at = std::min(text.find_first_of(kBetween, at), text.size());
+    }
+    return text.size();
+}
+
 /// Every three positions are a triangle. The facets' normals are not used: they are the faces'
 /// own where they are right, and repair.h computes those.
 RawMesh soup(RawMesh mesh, const std::string& fileName) {
@@ -88,23 +100,28 @@ RawMesh decodeStl(std::string_view bytes, const std::string& fileName) {
     if (hasItsLength(bytes) || !isText(bytes)) return decodeBinaryStl(bytes, fileName);
     RawMesh mesh;
     int line = 0;
+    constexpr std::string_view kVertex = "vertex";
     while (!bytes.empty()) {
         ++line;
         const std::size_t end = std::min(bytes.find('\n'), bytes.size());
-        const std::string_view text = bytes.substr(0, end);
+        std::string_view text = bytes.substr(0, end);
         bytes.remove_prefix(std::min(end + 1, bytes.size()));
-        // Of "facet normal", "outer loop", "vertex" and their ends only one has a place.
-        constexpr std::string_view kVertex = "vertex";
-        const std::size_t word = text.find_first_not_of(" \t\r");
-        if (word == std::string_view::npos || !sameWord(text.substr(word, kVertex.size()), kVertex))
-            continue;
-        const std::size_t at = word + kVertex.size();
-        const NumberRows rows =
-            parseRows(text.substr(at), fileName, line, static_cast<int>(at) + 1);
-        if (rows.values.size() != 3)
-            rows.refuse("mesh.syntax", rows.rows[0], "a vertex has three numbers");
-        checkCounts(mesh.positions.size() + 1, 0, fileName);
-        mesh.positions.push_back(placeAt(rows, rows.rows[0], rows.values.data()));
+        // Of "facet normal", "outer loop", "vertex" and their ends only one has a place. All of
+        // them may stand in one line.
+        for (std::size_t column = 0; !text.empty();) {
+            const std::size_t at = std::min(text.find_first_not_of(" \t\r,"), text.size());
+            const std::size_t stop = std::min(text.find_first_of(" \t\r,", at), text.size());
+            const bool isVertex = sameWord(text.substr(at, stop - at), kVertex);
+            column += stop;
+            text.remove_prefix(stop);
+            if (!isVertex) continue;
+            const NumberRows rows = parseRows(text.substr(0, numbersEnd(text)), fileName, line,
+                                              static_cast<int>(column) + 1);
+            if (rows.values.size() != 3)
+                rows.refuse("mesh.syntax", rows.rows[0], "a vertex has three numbers");
+            checkCounts(mesh.positions.size() + 1, 0, fileName);
+            mesh.positions.push_back(placeAt(rows, rows.rows[0], rows.values.data()));
+        }
     }
     if (mesh.positions.size() % 3 != 0)
         throw Error("mesh.truncated", "the last facet is incomplete", {fileName, line, 1});

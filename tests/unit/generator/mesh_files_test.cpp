@@ -207,14 +207,14 @@ std::vector<Bad> badFiles() {
         {"no faces.obj", "mesh.empty", 3, "v 0 0 0\nv 1 0 0\nv 0 1 0\n"},
         {"goes on.obj", "mesh.empty", 2, "o x\nv 0 0 0 \\\n"},
         {"index.obj", "mesh.index", 4, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n"},
-        {"zero.obj", "mesh.syntax", 4, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 0 1 2\n"},
+        {"zero.obj", "mesh.index", 4, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 0 1 3\n"},
         {"negative.obj", "mesh.index", 4, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf -4 1 2\n"},
         {"two corners.obj", "mesh.syntax", 3, "v 0 0 0\nv 1 0 0\nf 1 2\n"},
         {"short vertex.obj", "mesh.truncated", 1, "v 0 0\n"},
         {"word.obj", "mesh.syntax", 1, "v 0 zero 0\n"},
         {"four parts.obj", "mesh.syntax", 4, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1///1 2 3\n"},
         {"no end.ply", "mesh.truncated", 3, "ply\nformat ascii 1.0\n"},
-        {"no format.ply", "mesh.syntax", 2, "ply\nend_header\n"},
+        {"no format.ply", "mesh.empty", 3, "ply\nend_header\n"},
         {"type.ply", "mesh.syntax", 4, plyText("element vertex 1\nproperty quad x\n", "")},
         {"count.ply", "mesh.count", 9,
          plyText("element vertex 4000000000\nproperty float x\nproperty float y\n"
@@ -239,7 +239,10 @@ std::vector<Bad> badFiles() {
         {"version.3db", "mesh.format", 0, version},
         {"longer.3db", "mesh.truncated", 0, longer},
         {"count.patch", "mesh.truncated", 1, "1000000\n0,1,2\n"},
-        {"row.patch", "mesh.syntax", 2, "1\n0,1,2\n1\n0,0,0\n"},
+        {"row.patch", "mesh.truncated", 1, "1\n0,1,2\n1\n0,0,0\n"},
+        {"points.patch", "mesh.syntax", 5, "1\n0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0\n1\n0,0,0\n0,0,0\n"},
+        {"words.3d", "mesh.format", 0, "to be done\n"},
+        {"image.3d", "mesh.format", 0, "\x89PNG\r\n\x1a\n"},
         {"index.patch", "mesh.index", 2, "1\n0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,1\n1\n0,0,0\n"},
         {"short.patch", "mesh.truncated", 3, "1\n0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0\n2\n0,0,0\n"},
         {"none.patch", "mesh.count", 1, "0\n"},
@@ -270,7 +273,7 @@ TEST_CASE("damaged mesh files are refused with code and line") {
         Diagnostics findings;
         try {
             decodeMesh(row.bytes, row.name, findings);
-            FAIL("it was accepted");
+            FAIL_CHECK("it was accepted");
         } catch (const farol::Error& error) {
             CAPTURE(error.what());
             CHECK(error.code() == row.code);

@@ -5,7 +5,8 @@
 
 namespace farol::server {
 
-/// A scene, an archive or a picture: the content decides.
+/// An archive or an image by its first bytes, an image without a signature by its name, else a
+/// scene.
 grade::Subject subjectOf(Part part);
 
 }  // namespace farol::server

@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 
 #include "fixture.h"
+#include "server/routes/subject.h"
 
 // POST /v1/grade: what is taken and what is refused, before any worker sees it.
 using namespace farol;
@@ -37,6 +38,22 @@ TEST_CASE("a grade takes a submission and a reference, and nothing else") {
     CHECK(post(server.port(), "/v1/grade?pictures=2", multipart({submission, reference}),
                kMultipartType)
               .status == 400);
+}
+
+TEST_CASE("the content says whether an archive, an image or a scene was handed in") {
+    const auto kindOf = [](const char* name, std::string content) {
+        const grade::Subject subject =
+            server::subjectOf({"submission", name, "", std::move(content)});
+        if (subject.picture) return "image";
+        return subject.job.archive.empty() ? "scene" : "archive";
+    };
+    CHECK(kindOf("a.xml", "<world/>") == std::string("scene"));
+    CHECK(kindOf("a.xml", "\xFF\xFE<\0w\0") == std::string("scene"));
+    CHECK(kindOf("a.xml", "sphere { <0, 0, 0>, 1 }") == std::string("scene"));
+    CHECK(kindOf("a.png", "<world/>") == std::string("scene"));
+    CHECK(kindOf("a.xml", "\xFF\xD8\xFF\xE0") == std::string("image"));
+    CHECK(kindOf("a.tga", std::string(20, '\0')) == std::string("image"));
+    CHECK(kindOf("a.xml", "PK\3\4...") == std::string("archive"));
 }
 
 TEST_CASE("a comparison takes two pictures or scenes, and nothing else") {

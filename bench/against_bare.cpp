@@ -1,6 +1,6 @@
 // Warm frames plus PNG against the bare loop, turn by turn in one run:
 //   bench_against_bare SCENE.xml [--runs N] [--json] [--save STEM] [name=value ...]
-// Each side has a process of its own, so that neither sees the other's GL settings.
+// Each side has its own process, so that neither sees the other's GL settings.
 #include <sys/wait.h>
 #include <unistd.h>
 

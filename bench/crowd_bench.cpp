@@ -1,4 +1,4 @@
-// What models outside the view cost: scenes of 100 spheres in view and up to 99,900 behind the
+// The cost of models outside the view: scenes of 100 spheres in view and up to 99,900 behind the
 // viewer, turn by turn with a scene that holds only the 100:
 //   bench_crowd [--runs N] [--json] [name=value ...]
 #include <cstdio>

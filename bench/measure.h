@@ -13,7 +13,7 @@
 #include "core/stopwatch.h"
 #include "render/renderer.h"
 
-/// What the measuring programs share: arguments, the job, medians.
+/// Shared by the measuring programs: arguments, the job, medians.
 namespace farol::bench {
 
 inline double median(std::vector<double> values) {

@@ -54,7 +54,7 @@ std::vector<Setting> settings(bool quick) {
     return all;
 }
 
-constexpr std::int64_t kMostTriangles = 3'000'000;
+constexpr std::int64_t kMaxTriangles = 3'000'000;
 
 std::string mixed() {
     const char* shapes[] = {"sphere 0.5 16 8", "cone 0.5 1 16 1", "cylinder 0.4 1 16 1",
@@ -132,7 +132,7 @@ int main(int count, char** arguments) try {
     std::int64_t triangles = 0;  // what it made
     for (const Setting& setting : settings(quick)) {
         // Twice the divisions are four times the triangles: no figures of frames of seconds.
-        if (setting.divisions > coarse && triangles > kMostTriangles / 4) continue;
+        if (setting.divisions > coarse && triangles > kMaxTriangles / 4) continue;
         Runner one{setting, {}, {}, {}, {}, {}, {}};
         one.job.xml = subject.xml(setting.divisions);
         one.job.assets = subject.assets;

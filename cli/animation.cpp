@@ -14,7 +14,7 @@
 namespace farol::cli {
 namespace {
 
-constexpr int kMostFrames = 3600;
+constexpr int kMaxFrames = 3600;
 
 void showProgress(int done, int all) {
     if (!isatty(STDERR_FILENO)) return;
@@ -34,9 +34,9 @@ Schedule schedule(const AnimationFlags& flags, const render::SceneReport& report
     if (!flags.frames) made.frames = std::max(1, static_cast<int>(std::lround(*loop * *flags.fps)));
     // Rounded to whole frames, the loop still closes: the rate gives way.
     if (!(flags.frames && flags.fps)) made.fps = made.frames / *loop;
-    if (made.frames > kMostFrames)
+    if (made.frames > kMaxFrames)
         throw UsageError(
-            message<"usage/frames">("count"_arg = made.frames, "max"_arg = kMostFrames));
+            message<"usage/frames">("count"_arg = made.frames, "max"_arg = kMaxFrames));
     return made;
 }
 

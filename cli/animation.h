@@ -12,10 +12,10 @@ namespace farol::cli {
 struct AnimationFlags {
     std::optional<int> frames;
     std::optional<double> fps;
-    bool wanted() const { return frames || fps; }
+    bool isAnyGiven() const { return frames || fps; }
 };
 
-/// Moments of an animation: frame i shows `begin + i / fps`.
+/// The frames of an animation: frame i shows the time `beginS + i / fps`, seconds.
 struct Schedule {
     int frames;
     double fps, beginS;
@@ -26,9 +26,9 @@ struct Schedule {
 /// every moment. Throws UsageError when the loop is needed and the scene has none.
 Schedule schedule(const AnimationFlags& flags, const render::SceneReport& report, double timeS);
 
-/// Renders all frames into the first output, whose path this is: an animated PNG, or, with a %d
-/// (%04d) in it, one picture a frame. Shows progress on stderr where that is a terminal. Returns
-/// the last picture's facts.
+/// Renders all frames into the first output, at `path`: an animated PNG, or, with a %d (%04d) in
+/// it, one image a frame. Shows progress on stderr where that is a terminal. Returns the last
+/// image.
 render::Picture renderAnimation(render::Job job, const Schedule& schedule, const std::string& path,
                                 Outputs& outputs);
 

@@ -17,10 +17,18 @@ namespace farol::cli {
 
 /// The message tables of all floors, from core upwards.
 inline std::vector<std::span<const MessageRow>> messageTables() {
-    return {kCoreMessages,           image::kImageMessages, scene::kReadMessages,
-            scene::kRepairMessages,  scene::kFilesMessages, generator::kGeneratorMessages,
-            render::kRenderMessages, grade::kGradeMessages, worker::kWorkerMessages,
-            server::kServerMessages, cli::kCliMessages};
+    return {kCoreMessages,
+            image::kImageMessages,
+            scene::kReadMessages,
+            scene::kRepairMessages,
+            scene::kFilesMessages,
+            generator::kMeshMessages,
+            generator::kGeneratorMessages,
+            render::kRenderMessages,
+            grade::kGradeMessages,
+            worker::kWorkerMessages,
+            server::kServerMessages,
+            cli::kCliMessages};
 }
 
 /// Finds the English template of an id.

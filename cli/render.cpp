@@ -71,7 +71,7 @@ void printMissing(const worker::Layers& layers) {
 
 int draw(const Flags& flags, const render::Job& job, Report& report, Outputs& outputs) {
     render::Picture picture;
-    if (flags.animation.wanted()) {
+    if (flags.animation.isAnyGiven()) {
         const Schedule moments = schedule(flags.animation, render::inspect(job), job.options.timeS);
         picture = renderAnimation(job, moments, flags.output, outputs);
         report.set("frames", moments.frames);

@@ -45,8 +45,8 @@ class FlagAdder {
 };
 
 int run(const server::ServeOptions& options) {
-    // Pictures are made by one thread and dropped by another: with a heap for each thread, there
-    // are holes in all of them. Answers from the cache are no slower for it.
+    // Images are allocated by one thread and freed by another, which fragments the heaps that
+    // malloc has for each thread. Two heaps do not slow down answers from the cache.
     ::mallopt(M_ARENA_MAX, 2);
     // Bodies and large images go back to the system when they are freed: left to itself, malloc
     // begins to keep blocks as large as the largest that it has seen.

@@ -11,8 +11,8 @@
 namespace farol {
 namespace {
 
-/// Reads the text for the parser and counts how far it came: the parser's own position is only
-/// known to it where the syntax is wrong.
+/// Reads the text for the parser and records how far it has read: the parser reports its position
+/// only for syntax errors.
 class Cursor {
   public:
     using iterator_category = std::input_iterator_tag;

@@ -36,8 +36,8 @@ std::vector<std::string_view> split(std::string_view text, std::string_view sepa
 }
 
 std::string shown(std::string_view text) {
-    constexpr std::size_t kLongest = 60;
-    std::size_t length = std::min(text.size(), kLongest);
+    constexpr std::size_t kMaxShown = 60;
+    std::size_t length = std::min(text.size(), kMaxShown);
     const auto continues = [&text](std::size_t at) {
         return at < text.size() && (static_cast<unsigned char>(text[at]) & 0xC0U) == 0x80U;
     };

@@ -21,7 +21,7 @@ inline SinCos turn(std::size_t index, std::size_t count) {
     const std::size_t quarter = scaled / count;
     const std::size_t rest = scaled % count;
     const double n = static_cast<double>(count);
-    // Angles over an eighth of a turn are taken from the other end: sin(x) = cos(90 deg - x).
+    // Angles over an eighth of a turn are computed from the other end: sin(x) = cos(90 deg - x).
     const bool far = 2 * rest > count;
     const double angle = kQuarterTurn * (static_cast<double>(far ? count - rest : rest) / n);
     const double s = far ? std::cos(angle) : std::sin(angle);
@@ -74,7 +74,7 @@ class Builder {
         if (p[a] != p[b] && p[b] != p[c] && p[c] != p[a]) triangle(a, b, c);
     }
 
-    /// What was taken off all positions: Mesh::origin().
+    /// The offset subtracted from all positions: Mesh::origin().
     void origin(const glm::dvec3& place) { mesh_.origin = place; }
 
     std::uint32_t next() const { return static_cast<std::uint32_t>(mesh_.positions.size()); }

@@ -5,6 +5,7 @@
 #include "core/did_you_mean.h"
 #include "core/number.h"
 #include "core/text.h"
+#include "generator/messages.h"
 #include "generator/registry.h"
 #include "generator/words.h"
 
@@ -13,43 +14,47 @@ namespace {
 
 using Form = scene::ShapeArgument::Form;
 
-/// What the user wrote, quoted and of bounded length.
-std::string quoted(const std::string& word) {
-    constexpr std::size_t kShown = 40;
-    return "\"" + (word.size() > kShown ? word.substr(0, kShown) + "..." : word) + "\"";
-}
-
-[[noreturn]] void refuse(const ShapeEntry& shape, const std::string& what) {
-    throw Error("shape.argument", what + "; usage: " + usageOf(shape));
-}
-
-/// The cure for a decimal comma, where that is all that is wrong.
-std::string pointFor(std::string word) {
+/// The word with a point for its comma, where that makes it a number; else "".
+std::string withPoint(std::string word) {
     const std::size_t comma = word.find(',');
     if (comma == std::string::npos) return "";
     word[comma] = '.';
     double value = 0;
-    return parseNumber(word, value) ? " (write " + quoted(word) + ")" : "";
+    return parseNumber(word, value) ? word : "";
 }
 
 double readValue(const ShapeEntry& shape, const Argument& argument, const std::string& word) {
-    const std::string kind = argument.isInteger() ? "a whole number" : "a number";
     double value = 0;
     if (!parseNumber(word, value) || value < argument.min || value > argument.max ||
-        (argument.isInteger() && value != std::floor(value)))
-        refuse(shape, "the argument " + argument.name + " of " + shape.name + " must be " + kind +
-                          " from " + formatNumber(argument.min) + " to " +
-                          formatNumber(argument.max) + ", not " + quoted(word) + pointFor(word));
+        (argument.isInteger() && value != std::floor(value))) {
+        const auto name = "argument"_arg = argument.name;
+        const auto of = "shape"_arg = shape.name;
+        const auto found = "value"_arg = word;
+        const auto min = "min"_arg = argument.min;
+        const auto max = "max"_arg = argument.max;
+        const auto point = "suggestion"_arg = withPoint(word);
+        const auto usage = "usage"_arg = uncut(usageOf(shape));
+        throw Error(
+            argument.isInteger()
+                ? message<"shape.argument/whole">(name, of, found, min, max, point, usage)
+                : message<"shape.argument/number">(name, of, found, min, max, point, usage));
+    }
     return value;
 }
 
-[[noreturn]] void unknown(const std::string& word) {
+std::vector<std::string> shapeNames() {
     std::vector<std::string> names;
     for (const ShapeEntry& shape : shapes()) names.push_back(shape.name);
+    return names;
+}
+
+[[noreturn]] void unknown(const std::string& word) {
+    const std::vector<std::string> names = shapeNames();
     const std::string near = didYouMean(word, names);
-    throw Error("shape.unknown", "there is no shape " + quoted(word) +
-                                     (near.empty() ? "; there are " + joined(names, ", ")
-                                                   : "; did you mean \"" + near + "\"?"));
+    if (near.empty())
+        throw Error(message<"shape.unknown/list">("word"_arg = word,
+                                                  "shapes"_arg = uncut(joined(names, ", "))));
+    throw Error(message<"shape.unknown/near">("word"_arg = word, "suggestion"_arg = near));
 }
 
 }  // namespace
@@ -84,31 +89,35 @@ bool parseNumber(const std::string& word, double& value) {
     return number.has_value();
 }
 
-ShapeCall parseCall(const std::vector<std::string>& words, std::vector<std::string>* notes) {
-    if (words.empty()) throw Error("shape.unknown", "no shape is named");
+ShapeCall parseCall(const std::vector<std::string>& words, std::vector<Message>* notes) {
+    if (words.empty())
+        throw Error(
+            message<"shape.unknown/empty">("shapes"_arg = uncut(joined(shapeNames(), ", "))));
     const ShapeEntry* entry = findShape(words[0]);
     if (entry == nullptr) unknown(words[0]);
+    const auto usage = "usage"_arg = uncut(usageOf(*entry));
+    const auto shape = "shape"_arg = entry->name;
     ShapeCall call;
     call.entry = entry;
     std::size_t at = 1;
     if (entry->takesFile) {
-        if (words.size() < 2) refuse(*entry, entry->name + " needs a file");
+        if (words.size() < 2) throw Error(message<"shape.argument/file">(shape, usage));
         call.file = words[at++];
     }
     const std::vector<Argument>& arguments = entry->arguments;
     std::size_t count = words.size() - at;
     if (count > arguments.size() && notes != nullptr) {
-        notes->push_back(quoted(joined(words, " ")) + " has " + std::to_string(count) +
-                         " numbers; using the first " + std::to_string(arguments.size()) + " (" +
-                         usageOf(*entry) + ")");
+        notes->push_back(message<"shape.argument/surplus">("call"_arg = joined(words, " "),
+                                                           "count"_arg = count,
+                                                           "most"_arg = arguments.size(), usage));
         count = arguments.size();
     }
     if (count > arguments.size())
-        refuse(*entry, entry->name + " takes at most " + std::to_string(arguments.size()) +
-                           " numbers, not " + std::to_string(count));
+        throw Error(message<"shape.argument/count">(shape, "count"_arg = count,
+                                                    "most"_arg = arguments.size(), usage));
     if (count < entry->required)
-        refuse(*entry,
-               "the argument " + arguments[count].name + " of " + entry->name + " is missing");
+        throw Error(message<"shape.argument/missing">("argument"_arg = arguments[count].name, shape,
+                                                      usage));
     for (const Argument& argument : arguments)
         call.arguments.push_back({Form::omitted, argument.fallback});
     for (std::size_t i = 0; i < count; ++i) {
@@ -121,11 +130,13 @@ ShapeCall parseCall(const std::vector<std::string>& words, std::vector<std::stri
     }
     if (notes != nullptr && entry->isExchanged != nullptr && entry->isExchanged(call)) {
         std::swap(call.arguments[0], call.arguments[1]);
-        notes->push_back(quoted(joined(words, " ")) + " has " + arguments[1].name + " before " +
-                         arguments[0].name + "; using " + quoted(textOf(call)));
+        notes->push_back(message<"shape.argument/exchanged">(
+            "call"_arg = joined(words, " "), "second"_arg = arguments[1].name,
+            "first"_arg = arguments[0].name, "used"_arg = textOf(call)));
     }
-    const std::string fault = entry->check != nullptr ? entry->check(call) : "";
-    if (!fault.empty()) refuse(*entry, fault);
+    const Message problem = entry->check != nullptr ? entry->check(call) : Message();
+    if (!problem.empty())
+        throw Error(message<"shape.argument/together">("problem"_arg = problem, usage));
     return call;
 }
 

@@ -11,8 +11,7 @@ namespace farol::generator {
 /// "auto". Throws Error shape.unknown or shape.argument: the message names the argument and its
 /// range. With `notes`, arguments that are too many are left out and lengths in the other known
 /// order exchanged (ShapeEntry::isExchanged), each with a note; without, they are errors.
-ShapeCall parseCall(const std::vector<std::string>& words,
-                    std::vector<std::string>* notes = nullptr);
+ShapeCall parseCall(const std::vector<std::string>& words, std::vector<Message>* notes = nullptr);
 
 /// The text of a call, "cone 1 2 auto 3": parseCall makes the same call of its words, as splitWords
 /// gives them. A file name that is not one word stands in quotes, which splitWords does not put

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/message.h"
 #include "generator/fineness.h"
 #include "generator/mesh.h"
 #include "generator/surface.h"
@@ -58,9 +59,9 @@ struct ShapeEntry {
     /// True where the first two lengths stand in the other order that generators write; the parser
     /// of scenes exchanges them with a warning. Null: there is one order.
     bool (*isExchanged)(const ShapeCall& call) = nullptr;
-    /// What is wrong with arguments that are each in range but do not go together, or "". May be
-    /// null.
-    std::string (*check)(const ShapeCall& call) = nullptr;
+    /// Returns the problem of arguments that are each in range but do not go together, a message
+    /// part.*; an empty message where there is none. May be null.
+    Message (*check)(const ShapeCall& call) = nullptr;
     /// The bound on the mesh's error, solved for its divisions: values of the level arguments, in
     /// their order, that keep the fineness. Null where the mesh is exact.
     std::vector<double> (*bound)(const ShapeCall& call, const std::string& fileBytes,

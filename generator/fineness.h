@@ -11,16 +11,16 @@ struct Fineness {
     /// Least divisions of a straight side that narrows (cone, frustum): texture coordinates and
     /// vertex lighting bend there although the surface does not. >= 1.
     double straightSide = 1;
-    /// The mesh will be scaled by balanceOf, so that it errs to both sides: chords may be twice as
-    /// deep.
+    /// The mesh will be scaled by balancedScale and then errs to both sides: chords may be twice
+    /// as deep.
     bool balanced = false;
 };
 
 /// Most divisions that are chosen; finer wishes are capped.
-inline constexpr double kMostDivisions = 1024;
+inline constexpr double kMaxDivisions = 1024;
 
 /// Divisions of a circle of that radius whose sagitta r(1 - cos(pi/n)) is at most `error`,
-/// computed without cancellation, and at least fineness.fullTurn; rounded up to the ladder.
+/// computed without cancellation, and at least fineness.fullTurn; rounded up to the roundUpToStep.
 /// With fineness.balanced, of a circle that will be scaled so as to err by `error` to both sides.
 double circleDivisions(double radius, double error, const Fineness& fineness);
 
@@ -28,9 +28,9 @@ double circleDivisions(double radius, double error, const Fineness& fineness);
 /// `error` from it; as circleDivisions.
 double sphereDivisions(double radius, double error, const Fineness& fineness);
 
-/// The next of 1 2 3 4 6 8 12 16 20 24 28 32 40 48 56 64 80 ... kMostDivisions: few levels, so that
+/// The next of 1 2 3 4 6 8 12 16 20 24 28 32 40 48 56 64 80 ... kMaxDivisions: few levels, so that
 /// a mesh is found again while the camera moves. From 8 on they are multiples of 4: bounding boxes
 /// stay exact.
-double ladder(double divisions);
+double roundUpToStep(double divisions);
 
 }  // namespace farol::generator

@@ -4,26 +4,23 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "generator/messages.h"
 
 namespace farol::generator {
 namespace {
 
-std::string nameOf(const std::string& fileName) {
-    return fileName.empty() ? "the mesh" : "the mesh file \"" + fileName + "\"";
-}
-
-[[noreturn]] void refuse(const char* code, const std::string& fileName,
-                         const std::string& message) {
-    throw Error(code, nameOf(fileName) + " " + message, {fileName, 0, 0});
+[[noreturn]] void refuse(Message message, const std::string& fileName) {
+    throw Error(std::move(message), {fileName, 0, 0});
 }
 
 template <class Vector>
-void checkLength(const std::vector<Vector>& list, std::size_t positions, const char* what,
+void checkLength(const std::vector<Vector>& list, std::size_t positions, const Message& kind,
                  const std::string& fileName) {
     if (!list.empty() && list.size() != positions)
-        refuse("mesh.count", fileName,
-               "has " + std::to_string(list.size()) + " " + what + " for " +
-                   std::to_string(positions) + " positions; expected one each");
+        refuse(
+            message<"mesh.count/unequal">("file"_arg = uncut(fileName), "count"_arg = list.size(),
+                                          "kind"_arg = kind, "positions"_arg = positions),
+            fileName);
 }
 
 /// Parts cover the triangles in their order, without gaps.
@@ -31,60 +28,63 @@ void checkParts(const MeshArrays& arrays, const std::string& fileName) {
     std::size_t next = 0;
     for (const MeshPart& part : arrays.parts) {
         if (part.first != next || part.count % 3 != 0 || part.count > arrays.indices.size() - next)
-            refuse("mesh.count", fileName, "has parts that do not cover its triangles in order");
+            refuse(message<"mesh.count/parts-order">("file"_arg = uncut(fileName)), fileName);
         next += part.count;
     }
     if (!arrays.parts.empty() && (next != arrays.indices.size() || arrays.parts.size() > kMaxParts))
-        refuse("mesh.count", fileName,
-               "has " + std::to_string(arrays.parts.size()) + " parts of " + std::to_string(next) +
-                   " indices; expected at most " + std::to_string(kMaxParts) + " parts of all " +
-                   std::to_string(arrays.indices.size()));
+        refuse(message<"mesh.count/parts">(
+                   "file"_arg = uncut(fileName), "parts"_arg = arrays.parts.size(),
+                   "indices"_arg = next, "most"_arg = kMaxParts, "all"_arg = arrays.indices.size()),
+               fileName);
 }
 
 template <int N, class Vector>
-void checkNumbers(const std::vector<Vector>& list, const char* what, const std::string& fileName) {
+void checkNumbers(const std::vector<Vector>& list, const Message& kind,
+                  const std::string& fileName) {
     for (const Vector& value : list)
         for (int k = 0; k < N; ++k)
             if (!(std::abs(double{value[k]}) <= kMaxCoordinate))
-                refuse("mesh.number", fileName,
-                       std::string("has ") + what + " that is not a finite number within 1e18");
+                refuse(message<"mesh.number/kind">("file"_arg = uncut(fileName), "kind"_arg = kind),
+                       fileName);
 }
 
 }  // namespace
 
 void checkCounts(std::size_t vertices, std::size_t triangles, const std::string& fileName) {
     if (triangles > kMaxTriangles)
-        refuse("limit.triangles", fileName,
-               "has more than " + std::to_string(kMaxTriangles) + " triangles");
+        refuse(message<"limit.triangles/mesh">("file"_arg = uncut(fileName),
+                                               "most"_arg = kMaxTriangles),
+               fileName);
     if (vertices > kMaxVertices)
-        refuse("limit.triangles", fileName,
-               "has more than " + std::to_string(kMaxVertices) + " vertices");
+        refuse(message<"limit.triangles/vertices">("file"_arg = uncut(fileName),
+                                                   "most"_arg = kMaxVertices),
+               fileName);
 }
 
 void checkStructure(const MeshArrays& arrays, const std::string& fileName) {
     const std::size_t vertices = arrays.positions.size();
     checkCounts(vertices, arrays.triangles(), fileName);
-    checkLength(arrays.normals, vertices, "normals", fileName);
-    checkLength(arrays.uvs, vertices, "texture coordinates", fileName);
-    checkLength(arrays.colors, vertices, "colours", fileName);
+    checkLength(arrays.normals, vertices, message<"part.normals">(), fileName);
+    checkLength(arrays.uvs, vertices, message<"part.uvs">(), fileName);
+    checkLength(arrays.colors, vertices, message<"part.colours">(), fileName);
     if (arrays.indices.size() % 3 != 0)
-        refuse("mesh.truncated", fileName,
-               "has " + std::to_string(arrays.indices.size()) +
-                   " indices; expected a multiple of three");
+        refuse(message<"mesh.truncated/stored">("file"_arg = uncut(fileName),
+                                                "count"_arg = arrays.indices.size()),
+               fileName);
     const auto highest = std::max_element(arrays.indices.begin(), arrays.indices.end());
     if (highest != arrays.indices.end() && *highest >= vertices)
-        refuse("mesh.index", fileName,
-               "has the index " + std::to_string(*highest) + "; there are " +
-                   std::to_string(vertices) + " vertices, counted from 0");
+        refuse(message<"mesh.index/stored">("file"_arg = uncut(fileName), "index"_arg = *highest,
+                                            "count"_arg = vertices),
+               fileName);
     checkParts(arrays, fileName);
 }
 
 Mesh::Mesh(MeshArrays arrays, const std::string& fileName) {
     checkStructure(arrays, fileName);
-    checkNumbers<3>(arrays.positions, "a coordinate", fileName);
-    checkNumbers<3>(std::vector<glm::dvec3>{arrays.origin}, "an origin", fileName);
-    checkNumbers<3>(arrays.normals, "a normal", fileName);
-    checkNumbers<2>(arrays.uvs, "a texture coordinate", fileName);
+    checkNumbers<3>(arrays.positions, message<"part.one-coordinate">(), fileName);
+    checkNumbers<3>(std::vector<glm::dvec3>{arrays.origin}, message<"part.one-origin">(), fileName);
+    checkNumbers<3>(arrays.normals, message<"part.one-normal">(), fileName);
+    checkNumbers<2>(arrays.uvs, message<"part.one-uv">(), fileName);
     arrays_ = std::move(arrays);
 }
 

@@ -8,7 +8,7 @@
 
 namespace farol::generator {
 
-/// Upper bounds on one mesh, counted before memory is taken for it.
+/// Upper bounds on one mesh, counted before memory is allocated for it.
 inline constexpr std::size_t kMaxTriangles = 5'000'000;
 inline constexpr std::size_t kMaxVertices = 3 * kMaxTriangles;
 

@@ -1,63 +1,118 @@
 #pragma once
 
-#include "core/message.h"
+#include "generator/io/messages.h"
 
 namespace farol::generator {
 
+/// Messages of this floor but those about mesh files (io/messages.h), by code.
 inline constexpr MessageRow kGeneratorMessages[] = {
+    {"asset.from-file", "\"{file}\" is the file \"{path}\"", {"box.obj", "models/box.obj"}},
+    {"asset.generated/file",
+     "\"{file}\" is made by \"{call}\" ({reason})",
+     {"sphere_1_8_8.3d", "sphere 1 8 8", "its name"}},
+    {"asset.generated/model",
+     "a model is made by \"{call}\" ({reason})",
+     {"sphere 1 8 8", "its command"}},
+    {"asset.missing/comment",
+     "{problem}; using the file's name instead of the comment",
+     {"there is no file \"cup.txt\""}},
     {"asset.missing/file",
      "there is no file \"{file}\"[; {fix}]",
      {"comet.patch", "did you mean \"teapot.patch\"?"}},
+    {"asset.missing/mesh", "cannot read the mesh \"{file}\"", {"box.obj"}},
     {"asset.missing/model",
-     "there is no file \"{file}\", no generator comment for it, and its name is no shape's; {fix}",
+     "there is no file \"{file}\", no generator comment for it, and its name is not that of a "
+     "shape; {fix}",
      {"trous.3d", "did you mean \"torus.3d\"?"}},
     {"asset.outside",
-     "\"{file}\" cannot be read; {fix}",
+     "cannot read \"{file}\"; {fix}",
      {"../meshes/cone.3d", "send both in one archive"}},
-    {"mesh.assumed",
-     "the faces of the PLY file have no \"property\" line; read as \"property list uchar int "
-     "vertex_indices\""},
-    {"mesh.assumed/base", "the indices of the OBJ file count from 0; OBJ counts from 1"},
-    {"mesh.count-wrong/ply",
-     "the header of the PLY file has {count} faces, but the file holds {held}; these are drawn",
-     {"12", "11"}},
-    {"mesh.count-wrong/soup",
-     "the count in the first line, {count}, is not that of the vertices, triangles or numbers that "
-     "follow; all {vertices} vertices are drawn",
-     {"22", "6"}},
-    {"mesh.count-wrong/stl",
-     "the header of the STL file has the count {count}, but the file holds {held} triangles; all "
-     "{held} are drawn",
-     {"12", "11"}},
-    {"mesh.empty/off", "the OFF file holds no faces"},
-    {"mesh.format/other",
-     "looks like {kind}, not a mesh; expected rows of numbers, OBJ, PLY, STL or OFF",
-     {"an image"}},
-    {"mesh.format/words",
-     "the mesh file holds words and no coordinates; it begins with \"{start}\", expected rows of "
-     "numbers like \"0 1.5 -2\", OBJ, PLY, STL or OFF",
-     {"to be done"}},
-    {"mesh.left-out", "not read of \"{file}\": {list}", {"box.obj", "2 lines, 1 points"}},
-    {"mesh.material/file",
-     "the material file \"{file}\" of \"{mesh}\" is missing; its materials are not drawn",
-     {"box.mtl", "box.obj"}},
-    {"mesh.material/texture",
-     "the texture \"{file}\" of the material \"{material}\" is missing; the material is drawn "
-     "without it",
-     {"wood.png", "table"}},
-    {"mesh.number/place", "a coordinate is no finite number within 1e18"},
+    {"limit.triangles/comment",
+     "{problem}; using the file's name instead of the comment",
+     {"this sphere has 6000000 triangles; expected at most 5000000; use fewer divisions"}},
+    {"limit.triangles/shape",
+     "this {shape} has {count} triangles; expected at most {most}; use fewer divisions",
+     {"sphere", "6000000", "5000000"}},
     {"mesh.replaced",
-     "cannot read the mesh \"{file}\": {problem}; drawn as \"{shape}\", which its name or comment "
-     "says",
+     "cannot read the mesh \"{file}\": {problem}; using the shape \"{shape}\" of its name or "
+     "comment",
      {"plane_2_3.3d", "\"PLANE\" is not a number", "plane 2 3"}},
-    {"mesh.truncated/off", "the OFF file ends before its last face"},
-    {"part.point-for-comma", "write a point for the comma: \"{name}\"", {"box_1.5.3d"}},
+    {"part.by-builtin", "a built-in file"},
+    {"part.by-command", "its command"},
+    {"part.by-comment", "its generator comment"},
+    {"part.by-name", "its name"},
+    {"part.by-profile", "a profile to revolve"},
+    {"part.frustum-small",
+     "the arguments BOTTOM and TOP of frustum are {bottom} and {top}; expected 0, or at least "
+     "1e-06",
+     {"1e-09", "1"}},
+    {"part.frustum-zero",
+     "the arguments BOTTOM and TOP of frustum are both 0; expected one of them over 0"},
+    {"part.point-for-comma", "write a point for the comma: \"{name}\"", {"sphere_1.5_8_8.3d"}},
+    {"part.ring-narrow",
+     "the arguments INNER and OUTER of ring differ too little; expected at least 0.0001 of OUTER"},
+    {"part.ring-order",
+     "the argument INNER of ring is {inner}; expected less than OUTER, {outer}",
+     {"2", "1"}},
+    {"part.ring-small",
+     "the argument INNER of ring is {inner}; expected 0, or at least 1e-06",
+     {"1e-09"}},
+    {"part.torus-thin",
+     "the argument TUBE of torus is {tube}; expected at least 0.0001 of RING, {ring}",
+     {"1e-05", "1"}},
+    {"part.torus-tube",
+     "the argument TUBE of torus is {tube}; expected less than RING, {ring}",
+     {"2", "1"}},
+    {"shape.argument/comment",
+     "{problem}; using the file's name instead of the comment",
+     {"the argument SLICES of sphere is missing; usage: sphere RADIUS [SLICES] [STACKS]"}},
+    {"shape.argument/count",
+     "{shape} has {count} numbers; expected at most {most}; usage: {usage}",
+     {"sphere", "5", "3", "sphere RADIUS [SLICES] [STACKS]"}},
+    {"shape.argument/exchanged",
+     "\"{call}\" has {second} before {first}; using \"{used}\"",
+     {"torus 1 3", "TUBE", "RING", "torus 3 1"}},
+    {"shape.argument/file", "{shape} has no file; usage: {usage}", {"patch", "patch FILE [LEVEL]"}},
+    {"shape.argument/missing",
+     "the argument {argument} of {shape} is missing; usage: {usage}",
+     {"RADIUS", "sphere", "sphere RADIUS [SLICES] [STACKS]"}},
+    {"shape.argument/number",
+     "the argument {argument} of {shape} is \"{value}\"; expected a number in {min} to {max}[ "
+     "(write \"{suggestion}\")]; usage: {usage}",
+     {"RADIUS", "sphere", "1,5", "1e-06", "1e+09", "1.5", "sphere RADIUS [SLICES] [STACKS]"}},
+    {"shape.argument/surplus",
+     "\"{call}\" has {count} numbers; using the first {most} ({usage})",
+     {"sphere 1 8 8 8", "4", "3", "sphere RADIUS [SLICES] [STACKS]"}},
+    {"shape.argument/together",
+     "{problem}; usage: {usage}",
+     {"the argument TUBE of torus is 2; expected less than RING, 1",
+      "torus RING TUBE [SLICES] [STACKS]"}},
+    {"shape.argument/whole",
+     "the argument {argument} of {shape} is \"{value}\"; expected a whole number in {min} to "
+     "{max}[ (write \"{suggestion}\")]; usage: {usage}",
+     {"SLICES", "sphere", "2", "3", "100000", "4", "sphere RADIUS [SLICES] [STACKS]"}},
+    {"shape.guessed",
+     "\"{file}\" does not exist and its name gives no size; using \"{call}\"",
+     {"sphere.3d", "sphere 1"}},
+    {"shape.order",
+     "\"{call}\" gives counts before lengths; read as \"{used}\"",
+     {"sphere 8 8 1", "sphere 1 8 8"}},
+    {"shape.unknown/comment",
+     "{problem}; using the file's name instead of the comment",
+     {"there is no shape \"shpere\"; did you mean \"sphere\"?"}},
+    {"shape.unknown/empty", "no shape is named; expected {shapes}", {"plane, box, sphere"}},
+    {"shape.unknown/list",
+     "there is no shape \"{word}\"; expected {shapes}",
+     {"tree", "plane, box, sphere"}},
+    {"shape.unknown/near",
+     "there is no shape \"{word}\"; did you mean \"{suggestion}\"?",
+     {"shpere", "sphere"}},
 };
 
 /// A message of this floor: message<"mesh.left-out">("file"_arg = name, "list"_arg = list).
 template <FixedString kId, FixedString... kNames>
 Message message(const NamedArgument<kNames>&... arguments) {
-    return makeMessage<kId, kGeneratorMessages>(arguments...);
+    return makeMessage<kId, kGeneratorMessages, kMeshMessages>(arguments...);
 }
 
 }  // namespace farol::generator

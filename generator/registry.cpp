@@ -47,9 +47,9 @@ Prepared prepare(const ShapeCall& call, const scene::Assets& assets) {
     Prepared out{fileBytes(call, assets), 0};
     out.triangles = call.entry->count(call, out.bytes);
     if (out.triangles > kMaxTriangles)
-        throw Error("limit.triangles", "this " + call.entry->name + " has " +
-                                           std::to_string(out.triangles) + " triangles; at most " +
-                                           std::to_string(kMaxTriangles) + " are allowed");
+        throw Error(message<"limit.triangles/shape">("shape"_arg = call.entry->name,
+                                                     "count"_arg = out.triangles,
+                                                     "most"_arg = kMaxTriangles));
     return out;
 }
 
@@ -111,7 +111,7 @@ Mesh load(const scene::Model& model, const scene::Assets& assets, Diagnostics* f
     const std::optional<std::string> bytes =
         source.kind == Kind::file ? assets.read(source.path) : std::nullopt;
     if (!bytes)
-        throw Error("asset.missing", "the mesh \"" + model.file + "\" cannot be had", model.where);
+        throw Error(message<"asset.missing/mesh">("file"_arg = uncut(model.file)), model.where);
     Diagnostics unheard;
     Diagnostics& heard = findings != nullptr ? *findings : unheard;
     try {
@@ -128,7 +128,7 @@ Mesh load(const scene::Model& model, const scene::Assets& assets, Diagnostics* f
     }
 }
 
-bool isOpen(const scene::Model& model) {
+bool isAdaptive(const scene::Model& model) {
     if (model.source.kind != scene::ModelSource::Kind::shape) return false;
     const ShapeEntry& entry = *model.source.shape.entry;
     if (entry.bound == nullptr) return false;
@@ -151,7 +151,7 @@ double fullTurnOf(const ShapeCall& call) {
     return kind != nullptr ? kind->fullTurn(levelsOf(call)) : 0.0;
 }
 
-glm::dvec3 balanceOf(const ShapeCall& call) {
+glm::dvec3 balancedScale(const ShapeCall& call) {
     const SurfaceKind* kind = kindOf(call);
     return kind != nullptr ? kind->balance(levelsOf(call)) : glm::dvec3(1.0);
 }

@@ -50,7 +50,7 @@ Mesh load(const scene::Model& model, const scene::Assets& assets, Diagnostics* f
 /// True when a model's shape leaves divisions open (left out, "auto", or all of them by
 /// lod="auto"): its mesh is made as fine as the picture needs. What is written is honoured to the
 /// letter.
-bool isOpen(const scene::Model& model);
+bool isAdaptive(const scene::Model& model);
 
 /// The exact surface of a model whose divisions are all open; nothing where some are written (the
 /// mesh is then what is meant) or the shape is none of Surface's.
@@ -62,10 +62,10 @@ double fullTurnOf(const ShapeCall& call);
 
 /// The scale, object space, by which the mesh of a shape that Surface knows errs as far outwards as
 /// inwards (a torus: round its ring); 1 for other shapes.
-glm::dvec3 balanceOf(const ShapeCall& call);
+glm::dvec3 balancedScale(const ShapeCall& call);
 
-/// The call of an open model with its divisions chosen: the coarsest of a small ladder that keep
-/// `fineness`; its file is where it was found. Throws as load does.
+/// The call of an open model with its divisions chosen: the coarsest of a small roundUpToStep that
+/// keep `fineness`; its file is where it was found. Throws as load does.
 ShapeCall refine(const scene::Model& model, const scene::Assets& assets, const Fineness& fineness);
 
 }  // namespace farol::generator

@@ -26,17 +26,19 @@ class ModelFinder {
                 scene::Locator& locator, Diagnostics& diagnostics)
         : comments_(comments), assets_(assets), locator_(locator), diagnostics_(diagnostics) {}
 
-    /// Throws Error where the model cannot be had.
+    /// Throws Error where the model is neither a file nor a shape.
     ModelSource find(const scene::Model& model) {
         if (model.revolve)
             return shape(parseCall({"revolution", model.file, std::to_string(*model.revolve)}),
-                         model, "a profile to revolve");
+                         model, message<"part.by-profile">());
         const auto path = model.file.empty()
                               ? std::nullopt
                               : locator_.locate(model.file, model.where, diagnostics_);
         if (path) {
-            report(Severity::info, "asset.from-file", model.where,
-                   "\"" + model.file + "\" is the file \"" + *path + "\"");
+            report(Severity::info,
+                   message<"asset.from-file">("file"_arg = uncut(model.file),
+                                              "path"_arg = uncut(*path)),
+                   model.where);
             if (const ShapeEntry* entry = shapeOfFile(*path))
                 return {ModelSource::Kind::shape, *path, parseCall({entry->name, *path})};
             ModelSource source{ModelSource::Kind::file, *path};
@@ -46,14 +48,15 @@ class ModelFinder {
         }
         if (!model.command.empty())
             return shape(parseComment(splitWords(model.command), "", model.where, diagnostics_),
-                         model, "its command");
+                         model, message<"part.by-command">());
         const auto named = wordsOfName(model.file);
         if (const Words* words = comment(model.file))
             if (const auto source = fromComment(*words, named, model)) return *source;
         if (named) return fromName(*named, model);
         if (builtinFile(model.file)) {
             const std::string file(baseName(model.file));
-            return shape(parseCall({shapeOfFile(file)->name, file}), model, "a built-in file");
+            return shape(parseCall({shapeOfFile(file)->name, file}), model,
+                         message<"part.by-builtin">());
         }
         throw Error(message<"asset.missing/model">(
             "file"_arg = model.file,
@@ -61,9 +64,8 @@ class ModelFinder {
     }
 
   private:
-    void report(Severity severity, const std::string& code, const Location& where,
-                const std::string& message) {
-        diagnostics_.push_back({severity, code, where, message, ""});
+    void report(Severity severity, Message message, const Location& where) {
+        diagnostics_.push_back(diagnosticOf(severity, std::move(message), where));
     }
 
     /// The materials of an OBJ file; null where it names none. What cannot be read is a warning,
@@ -78,9 +80,10 @@ class ModelFinder {
             const std::optional<std::string> file = beside(path, name, where);
             const std::optional<std::string> text = file ? assets_.read(*file) : std::nullopt;
             if (!text) {
-                diagnostics_.push_back(diagnosticOf(
-                    Severity::warning,
-                    message<"mesh.material/file">("file"_arg = name, "mesh"_arg = path), where));
+                report(Severity::warning,
+                       message<"mesh.material/file">("file"_arg = uncut(name),
+                                                     "mesh"_arg = uncut(path)),
+                       where);
                 continue;
             }
             for (scene::PartMaterial& one : io::parseMtl(*text, *file, diagnostics_)) {
@@ -98,11 +101,10 @@ class ModelFinder {
             part.texture->path = *file;
             return;
         }
-        diagnostics_.push_back(
-            diagnosticOf(Severity::warning,
-                         message<"mesh.material/texture">("file"_arg = part.texture->file,
-                                                          "material"_arg = part.name),
-                         part.texture->where));
+        report(Severity::warning,
+               message<"mesh.material/texture">("file"_arg = uncut(part.texture->file),
+                                                "material"_arg = part.name),
+               part.texture->where);
         part.texture.reset();
     }
 
@@ -145,39 +147,47 @@ class ModelFinder {
                                            const scene::Model& model) {
         try {
             return shape(parseComment(words, model.file, model.where, diagnostics_), model,
-                         "its generator comment");
+                         message<"part.by-comment">());
         } catch (const Error& error) {
             if (!named || named->size() < 2) throw;
-            report(Severity::warning, error.code(), model.where,
-                   std::string(error.what()) + "; the comment is not used, the file's name is");
+            report(Severity::warning, unusedComment(error), model.where);
             return std::nullopt;
         }
     }
 
-    /// "sphere.3d" alone says no size: the usual one is taken, and said to be a guess.
+    /// The warning about a generator comment that cannot be read, with the error's code.
+    static Message unusedComment(const Error& error) {
+        const auto problem = "problem"_arg = error.primary();
+        if (error.code() == "shape.unknown") return message<"shape.unknown/comment">(problem);
+        if (error.code() == "asset.missing") return message<"asset.missing/comment">(problem);
+        if (error.code() == "limit.triangles") return message<"limit.triangles/comment">(problem);
+        return message<"shape.argument/comment">(problem);
+    }
+
+    /// "sphere.3d" alone gives no size: uses the usual one, with a warning.
     ModelSource fromName(Words words, const scene::Model& model) {
         const ShapeEntry* named = findShape(words[0]);
         if (words.size() == 1 && named != nullptr) {
             if (locator_.leadsOut(model.file, model.where))
-                diagnostics_.push_back(diagnosticOf(
+                report(
                     Severity::warning,
                     message<"asset.outside">("file"_arg = model.file,
                                              "fix"_arg = locator_.advice(model.file, model.where)),
-                    model.where));
+                    model.where);
             for (std::size_t i = 0; i < named->required; ++i)
                 words.push_back(formatNumber(named->arguments[i].usual));
-            report(Severity::warning, "shape.guessed", model.where,
-                   farol::quoted(model.file) + " does not exist and its name gives no size; " +
-                       farol::quoted(textOf(parseCall(words))) + " is drawn");
+            report(Severity::warning,
+                   message<"shape.guessed">("file"_arg = uncut(model.file),
+                                            "call"_arg = textOf(parseCall(words))),
+                   model.where);
         }
-        std::vector<std::string> notes;
+        std::vector<Message> notes;
         const ShapeCall call = parseCall(words, &notes);
-        for (const std::string& note : notes)
-            report(Severity::warning, "shape.argument", model.where, note);
-        return shape(call, model, "its name");
+        for (Message& note : notes) report(Severity::warning, std::move(note), model.where);
+        return shape(call, model, message<"part.by-name">());
     }
 
-    ModelSource shape(const ShapeCall& call, const scene::Model& model, const std::string& why) {
+    ModelSource shape(const ShapeCall& call, const scene::Model& model, const Message& reason) {
         ModelSource source{ModelSource::Kind::shape, "", call, call.entry->isSheet};
         if (call.entry->takesFile) {
             if (const auto path = locator_.locate(call.file, model.where, diagnostics_))
@@ -188,9 +198,12 @@ class ModelFinder {
         } else {
             countTriangles(call, assets_);  // throws over the limit
         }
-        const std::string name = model.file.empty() ? "a model" : "\"" + model.file + "\"";
-        report(Severity::info, "asset.generated", model.where,
-               name + " is made by \"" + textOf(call) + "\" (" + why + ")");
+        const auto made = "call"_arg = textOf(call);
+        report(Severity::info,
+               model.file.empty() ? message<"asset.generated/model">(made, "reason"_arg = reason)
+                                  : message<"asset.generated/file">("file"_arg = uncut(model.file),
+                                                                    made, "reason"_arg = reason),
+               model.where);
         return source;
     }
 
@@ -216,7 +229,7 @@ class ModelFinder {
         return names;
     }
 
-    /// What to do about a file that is not there: the nearest name, if any is near.
+    /// Returns how to fix a missing file: the nearest name, if one is near.
     Message advice(const std::string& file, const Location& where, Words candidates) {
         const std::string base(baseName(file));
         std::string points = base;

@@ -4,6 +4,7 @@
 
 #include "core/embedded.h"
 #include "core/text.h"
+#include "generator/messages.h"
 #include "scene/files/locator.h"
 
 namespace farol {
@@ -27,13 +28,13 @@ std::vector<std::string> builtinNames() {
 
 std::string readSource(const std::string& path, const scene::Assets& assets) {
     scene::Locator locator(assets);
-    Diagnostics unheard;  // resolve has said where the file was found
+    Diagnostics unheard;  // resolve has reported where the file was found
     if (const auto found = locator.locate(path, {}, unheard))
         if (auto bytes = assets.read(*found)) return std::move(*bytes);
     if (const auto bytes = builtinFile(path)) return std::string(*bytes);
     const std::optional<Message> near = locator.nearest(path, builtinNames());
-    throw Error(message<"asset.missing/file">("file"_arg = path,
-                                              "fix"_arg = near ? *near : Message{}));
+    throw Error(
+        message<"asset.missing/file">("file"_arg = path, "fix"_arg = near ? *near : Message{}));
 }
 
 }  // namespace farol::generator

@@ -32,7 +32,7 @@ struct SurfaceKind {
     std::string_view glsl = {};
 };
 
-/// The exact surface that the mesh of a curved shape stands for, in units of its own lengths:
+/// The exact surface that the mesh of a curved shape stands for, in units of its lengths:
 /// q = position / lengths.
 struct Surface {
     const SurfaceKind* kind = nullptr;

@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "core/text.h"
+#include "generator/messages.h"
 #include "generator/registry.h"
 
 namespace farol::generator {
@@ -72,8 +73,7 @@ std::optional<std::vector<std::string>> fileShapeOfName(const ShapeEntry& shape,
 
 /// Parses counts first, then lengths: the order of some older generators.
 std::optional<ShapeCall> parseCountsFirst(const std::vector<std::string>& words,
-                                          const ShapeEntry& shape,
-                                          std::vector<std::string>& notes) {
+                                          const ShapeEntry& shape, std::vector<Message>& notes) {
     const auto counts =
         std::count_if(shape.arguments.begin(), shape.arguments.end(),
                       [](const Argument& argument) { return argument.isInteger(); });
@@ -140,11 +140,11 @@ ShapeCall parseComment(std::vector<std::string> words, const std::string& fileNa
         else if (!shape->builtinFile.empty())
             words.insert(words.begin() + 1, shape->builtinFile);
     }
-    const auto report = [&](const std::vector<std::string>& notes) {
-        for (const std::string& note : notes)
-            diagnostics.push_back({Severity::warning, "shape.argument", where, note, ""});
+    const auto report = [&](std::vector<Message>& notes) {
+        for (Message& note : notes)
+            diagnostics.push_back(diagnosticOf(Severity::warning, std::move(note), where));
     };
-    std::vector<std::string> notes;
+    std::vector<Message> notes;
     try {
         const ShapeCall call = parseCall(words, &notes);
         report(notes);
@@ -154,11 +154,10 @@ ShapeCall parseComment(std::vector<std::string> words, const std::string& fileNa
         auto turned = shape != nullptr ? parseCountsFirst(words, *shape, notes) : std::nullopt;
         if (!turned) throw;
         report(notes);
-        diagnostics.push_back({Severity::warning, "shape.order", where,
-                               "\"" + joined(words, " ") +
-                                   "\" gives counts before lengths: read as \"" + textOf(*turned) +
-                                   "\"",
-                               ""});
+        diagnostics.push_back(diagnosticOf(
+            Severity::warning,
+            message<"shape.order">("call"_arg = joined(words, " "), "used"_arg = textOf(*turned)),
+            where));
         return *turned;
     }
 }

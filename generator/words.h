@@ -7,10 +7,10 @@
 #include "core/error.h"
 #include "generator/call.h"
 
-/// From what a scene says of a missing mesh to a shape's call.
+/// Parses shape calls from the file names and generator comments of missing meshes.
 namespace farol::generator {
 
-/// Words parted by blanks or commas; quotes are taken off. At most 16: no shape takes more.
+/// Words parted by blanks or commas; quotes are removed. At most 16: no shape has more.
 std::vector<std::string> splitWords(const std::string& text);
 /// Whether splitWords gives the text back as its only word.
 bool isOneWord(const std::string& text);
@@ -21,7 +21,7 @@ bool isOneWord(const std::string& text);
 std::optional<std::vector<std::string>> wordsOfName(const std::string& fileName);
 
 /// Parses a generator comment or command, the program's name and "teapot" for its patches
-/// understood. A missing shape word is taken from the file's name ("2 3" for box_2_3.3d); a file
+/// understood. A missing shape word is read from the file's name ("2 3" for box_2_3.3d); a file
 /// that stands after the numbers goes first. Throws as parseCall where no order of the arguments
 /// makes sense; the older order, counts before lengths ("sphere 8 8 1"), is understood with a
 /// warning at `where`.

@@ -99,8 +99,7 @@ Image decodeImage(std::string_view bytes, const std::string& name, const Locatio
         throw Error(message<"image.unreadable">("name"_arg = uncut(name),
                                                 "reason"_arg = uncut("it " + file.damage)),
                     where);
-    if (!file.damage.empty())
-        *damage = file.damage + "; the pixels that are lost are grey; fix: export the file again";
+    if (!file.damage.empty()) *damage = file.damage;
     Image image{file.width, file.height, {}};
     if (file.channels == 4) {
         image.pixels = std::move(file.samples);

@@ -21,7 +21,7 @@ ImageSize imageSize(std::string_view bytes, const std::string& name, const Locat
 /// Decodes a PNG, JPEG, WebP, GIF, BMP, TGA, PNM, Radiance, OpenEXR or TIFF file, recognised by its
 /// first bytes (TGA by the ending of its name). Grey becomes RGB; missing alpha 255. Throws Error
 /// image.unreadable or limit.texture, which name the file and `where`. A file that is damaged but
-/// has an image sets `damage`: "is cut off; ..."; where that is null, it is image.unreadable.
+/// has an image sets `damage`: "is cut off"; where that is null, it is image.unreadable.
 Image decodeImage(std::string_view bytes, const std::string& name, const Location& where = {},
                   std::string* damage = nullptr);
 

@@ -22,13 +22,13 @@ std::uint32_t numberAt(std::string_view bytes, std::size_t at, std::size_t count
 /// The tag in a block as TIFF files begin with (TIFF 6.0, section 2): byte order, place of the
 /// first directory, its entries of 12 bytes.
 int orientationInTiff(std::string_view block) {
-    constexpr std::size_t kMostEntries = 256;
+    constexpr std::size_t kMaxEntries = 256;
     constexpr std::uint32_t kTag = 0x0112, kShort = 3;
     const bool big = block.starts_with("MM\0*"sv);
     if (!big && !block.starts_with("II*\0"sv)) return 1;
     const std::size_t directory = numberAt(block, 4, 4, big);
     const std::size_t entries =
-        std::min<std::size_t>(numberAt(block, directory, 2, big), kMostEntries);
+        std::min<std::size_t>(numberAt(block, directory, 2, big), kMaxEntries);
     for (std::size_t i = 0; i < entries; ++i) {
         const std::size_t at = directory + 2 + 12 * i;
         if (numberAt(block, at, 2, big) != kTag) continue;

@@ -47,7 +47,7 @@ Bytes filterRows(const Image& image, std::size_t channels) {
         for (std::size_t x = 0; x < width; ++x, from += 4, to += channels) {
             const std::uint32_t pixel = load(from);
             const std::uint32_t changed = differences(pixel, before);
-            // With three channels the fourth byte is written over by what follows.
+            // With three channels the next pixel overwrites the fourth byte.
             std::memcpy(to, &changed, sizeof changed);
             before = pixel;
         }
@@ -57,8 +57,8 @@ Bytes filterRows(const Image& image, std::size_t channels) {
 
 /// Appends a zlib stream (RFC 1950). Level 3 of ISA-L: decision 10.
 void deflate(std::uint8_t* rows, std::size_t size, std::string& out) {
-    constexpr std::size_t kMostAtOnce = std::size_t{1} << 30;  // its counts are 32-bit
-    // Its hash table is looked up before it is filled: other bytes there give other matches.
+    constexpr std::size_t kMaxAtOnce = std::size_t{1} << 30;  // ISA-L counts in 32 bits
+    // ISA-L reads its hash table before it fills it: other bytes there give other matches.
     const Bytes buffer = zeroed(ISAL_DEF_LVL3_DEFAULT);
     const auto stream = std::make_unique<isal_zstream>();
     isal_deflate_init(stream.get());
@@ -70,7 +70,7 @@ void deflate(std::uint8_t* rows, std::size_t size, std::string& out) {
     std::size_t left = size;
     do {
         if (stream->avail_in == 0) {
-            const std::size_t next = std::min(left, kMostAtOnce);
+            const std::size_t next = std::min(left, kMaxAtOnce);
             stream->next_in = rows + (size - left);
             stream->avail_in = static_cast<std::uint32_t>(next);
             left -= next;

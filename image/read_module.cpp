@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 std::string findModule() {
     std::error_code failed;
     const fs::path folder = fs::read_symlink("/proc/self/exe", failed).parent_path();
-    // Beside the program, as built or copied; installed; the tests lie one or two folders deeper.
+    // Beside the program (built or copied), installed, or one or two folders above the tests.
     for (const char* place : {"", "../lib/farol", "..", "../.."}) {
         const fs::path file = folder / place / FAROL_OIIO_MODULE;
         if (fs::exists(file, failed)) return file.lexically_normal().string();
@@ -54,7 +54,7 @@ ModuleRead load() {
 }
 
 /// While it lives, malloc hands out zeroed memory: M_PERTURB writes the complement of its value.
-/// Memory that a thread keeps for itself is left out, so the work needs a new thread.
+/// It does not reach the cache that malloc keeps for a thread, so the work needs a new thread.
 class ZeroedMemory {
   public:
     ZeroedMemory() { mallopt(M_PERTURB, 0xff); }

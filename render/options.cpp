@@ -8,34 +8,36 @@
 
 #include "core/did_you_mean.h"
 #include "core/text.h"
+#include "render/plan/messages.h"
 
 namespace farol::render {
 namespace {
 
 [[noreturn]] void outOfRange(const std::string& name, const std::string& value,
-                             const std::string& range) {
-    throw Error("option.range",
-                name + "=" + shown(value) + " is not valid: " + name + " takes " + range, {}, name);
+                             const std::string& expected) {
+    throw Error(message<"option.range/picture">("name"_arg = name, "value"_arg = value,
+                                                "expected"_arg = uncut(expected)),
+                {}, name);
 }
 
 double parseNumber(const std::string& name, const std::string& text, double min, double max,
-                   const char* range) {
+                   const std::string& expected) {
     double value = 0.0;
     const char* end = text.data() + text.size();
     const char* begin = text.data() + (text.size() > 1 && text[0] == '+' ? 1 : 0);
     const auto [at, error] = std::from_chars(begin, end, value);
     if (error != std::errc() || at != end || !std::isfinite(value) || value < min || value > max)
-        outOfRange(name, text, range);
+        outOfRange(name, text, expected);
     return value;
 }
 
 int parseInt(const std::string& name, const std::string& text, int min, int max,
-             const char* range) {
+             const std::string& expected) {
     int value = 0;
     const char* end = text.data() + text.size();
     const auto [at, error] = std::from_chars(text.data(), end, value);
     if (error != std::errc() || at != end || value < min || value > max)
-        outOfRange(name, text, range);
+        outOfRange(name, text, expected);
     return value;
 }
 
@@ -48,7 +50,7 @@ bool parseFlag(const std::string& name, const std::string& text) {
 constexpr double kFar = 1e12;  // beyond it a float of the eye-relative position says nothing
 
 glm::dvec3 parseVector(const std::string& name, const std::string& text) {
-    constexpr const char* kRange = "three numbers x,y,z within +-1e12";
+    constexpr const char* kRange = "three numbers x,y,z from -1e12 to 1e12";
     glm::dvec3 value{0.0};
     std::size_t begin = 0;
     for (int i = 0; i < 3; ++i) {
@@ -89,6 +91,12 @@ std::string shortNumber(double value) {
     return out.substr(0, e + 1) + sign + out.substr(out.find_first_not_of('0', e + 2));
 }
 
+/// "1..4096 px" for help, "1 to 4096 px" for messages.
+std::string rangeOf(const std::string& min, const char* between, const std::string& max,
+                    const std::string& unit) {
+    return min + between + max + (unit.empty() ? "" : " " + unit);
+}
+
 OptionSpec row(const std::string& name, OptionType type, const std::string& range,
                const std::string& help, const std::string& details) {
     OptionSpec spec;
@@ -104,13 +112,13 @@ template <typename Member>
 OptionSpec number(const std::string& name, Member PictureOptions::*member, double min, double max,
                   const std::string& unit, const std::string& help,
                   const std::string& details = "") {
-    const std::string range =
-        shortNumber(min) + ".." + shortNumber(max) + (unit.empty() ? "" : " " + unit);
+    const std::string range = rangeOf(shortNumber(min), "..", shortNumber(max), unit);
+    const std::string expected = rangeOf(shortNumber(min), " to ", shortNumber(max), unit);
     OptionSpec spec = row(name, OptionType::number, range, help, details);
     spec.min = min;
     spec.max = max;
     spec.apply = [=](PictureOptions& o, const std::string& value) {
-        o.*member = parseNumber(name, value, min, max, range.c_str());
+        o.*member = parseNumber(name, value, min, max, expected);
     };
     return spec;
 }
@@ -119,13 +127,14 @@ template <typename Member>
 OptionSpec integer(const std::string& name, Member PictureOptions::*member, int min, int max,
                    const std::string& unit, const std::string& help,
                    const std::string& details = "") {
-    const std::string range =
-        std::to_string(min) + ".." + std::to_string(max) + (unit.empty() ? "" : " " + unit);
+    const std::string range = rangeOf(std::to_string(min), "..", std::to_string(max), unit);
+    const std::string expected =
+        "a whole number in " + rangeOf(std::to_string(min), " to ", std::to_string(max), unit);
     OptionSpec spec = row(name, OptionType::integer, range, help, details);
     spec.min = min;
     spec.max = max;
     spec.apply = [=](PictureOptions& o, const std::string& value) {
-        o.*member = parseInt(name, value, min, max, range.c_str());
+        o.*member = parseInt(name, value, min, max, expected);
     };
     return spec;
 }
@@ -141,8 +150,8 @@ OptionSpec choice(const std::string& name, Member PictureOptions::*member,
     spec.min = std::stoi(values.front());
     spec.max = std::stoi(values.back());
     spec.apply = [=](PictureOptions& o, const std::string& value) {
-        const int parsed = parseInt(name, value, std::stoi(values.front()),
-                                    std::stoi(values.back()), range.c_str());
+        const int parsed =
+            parseInt(name, value, std::stoi(values.front()), std::stoi(values.back()), range);
         if (std::find(values.begin(), values.end(), std::to_string(parsed)) == values.end())
             outOfRange(name, value, range);
         o.*member = parsed;
@@ -188,7 +197,7 @@ OptionSpec text(const std::string& name, std::optional<std::string> PictureOptio
                 const std::string& range, const std::string& expected, const std::string& help) {
     OptionSpec spec = row(name, OptionType::text, range, help, "");
     spec.apply = [=](PictureOptions& o, const std::string& value) {
-        if (value.empty() || value.size() > 1024) outOfRange(name, value.substr(0, 40), expected);
+        if (value.empty() || value.size() > 1024) outOfRange(name, value, expected);
         o.*member = value;
     };
     return spec;
@@ -292,10 +301,8 @@ void applyOption(PictureOptions& options, const std::string& name, const std::st
     std::vector<std::string> names;
     for (const OptionSpec& one : all) names.push_back(one.name);
     const std::string hint = didYouMean(name, names);
-    throw Error("option.unknown",
-                "there is no picture option '" + name.substr(0, 64) + "'" +
-                    (hint.empty() ? "" : "; did you mean '" + hint + "'?"),
-                {}, name.substr(0, 64));
+    throw Error(message<"option.unknown/picture">("name"_arg = name, "suggestion"_arg = hint), {},
+                name.substr(0, 64));
 }
 
 }  // namespace farol::render

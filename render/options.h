@@ -23,7 +23,7 @@ enum class CameraStart { scene, framed, engine };
 inline constexpr EnumWords<CameraStart, CameraStart::engine> kCameraStartWords{"scene", "framed",
                                                                                "engine"};
 
-/// What happens where a file or a part of the document cannot be read: an error and no image, or an
+/// The result where a file or a part of the document cannot be read: an error and no image, or an
 /// image with placeholders and the errors beside it.
 enum class Missing { error, placeholder };
 inline constexpr EnumWords<Missing, Missing::placeholder> kMissingWords{"error", "placeholder"};
@@ -46,7 +46,7 @@ struct PictureOptions {
     std::optional<int> samples;  ///< 1, 2, 4, 8, 16; default 4
     std::optional<scene::Filter> filter;
     std::optional<double> errorPx;  ///< tessellation on demand; default kDefaultErrorPx
-    /// 0.1..60000: what neither request nor scene says of samples and error (quality.h)
+    /// 0.1 to 60000 ms: chooses samples and error where they are not set (quality.h)
     std::optional<double> budgetMs;
     std::optional<bool> axes;
     bool curves = false, focus = false, debug = false;

@@ -6,6 +6,7 @@
 
 #include "generator/registry.h"
 #include "image/image_file.h"
+#include "render/plan/messages.h"
 
 namespace farol::render {
 namespace {
@@ -83,7 +84,7 @@ class PlaceholderFiller {
         return isReadable("image " + path, where, [&] {
             const auto bytes = assets_.read(path);
             if (!bytes)
-                throw Error("asset.missing", "cannot read the image \"" + path + "\"", where);
+                throw Error(message<"asset.missing/image-file">("file"_arg = uncut(path)), where);
             std::string damage;  // reported where it is drawn
             image::decodeImage(*bytes, path, where, &damage);
         });

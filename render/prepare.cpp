@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <iterator>
 
+#include "core/messages.h"
 #include "core/text.h"
 #include "generator/registry.h"
 #include "render/placeholders.h"
+#include "render/plan/messages.h"
 #include "scene/animation.h"
 #include "scene/files/archive.h"
 #include "scene/files/locator.h"
@@ -110,8 +112,7 @@ void addFiles(const scene::Scene& scene, std::vector<std::string>& paths) {
 void takeEntity(Prepared& prepared, const std::string& file) {
     const auto path =
         scene::locate(*prepared.assets, file, {}, prepared.diagnostics, prepared.scene.document);
-    if (!path)
-        throw Error("option.range", "entity=" + file + " is no file of this scene", {}, "entity");
+    if (!path) throw Error(message<"option.range/entity">("value"_arg = uncut(file)), {}, "entity");
     scene::ReadOptions options;
     options.name = options.path = *path;
     scene::ReadResult result =
@@ -138,11 +139,8 @@ void capFindings(Diagnostics& diagnostics) {
     Diagnostics shown;
     for (std::size_t i = 0; i < diagnostics.size(); ++i)
         if (isKept[i]) shown.push_back(std::move(diagnostics[i]));
-    Diagnostic note;
-    note.severity = Severity::info;
-    note.code = "limit.diagnostics";
-    note.message = std::to_string(hidden) + " more findings are not shown";
-    shown.push_back(std::move(note));
+    shown.push_back(
+        diagnosticOf(Severity::info, coreMessage<"limit.diagnostics">("count"_arg = hidden)));
     diagnostics = std::move(shown);
 }
 
@@ -158,6 +156,45 @@ void refuseErrors(Diagnostics& diagnostics, const Job& job) {
                     [](const Diagnostic& one) { return one.severity == Severity::error; }))
         throw Error(diagnostics);
 }
+
+namespace {
+
+/// Adds the files that are missing too, to the errors of a document that cannot be read.
+void addMissingFiles(Diagnostics& errors, const Job& job, scene::ReadOptions options,
+                     const scene::Assets& assets) {
+    options.leaveOut = true;
+    scene::Scene readable;
+    try {
+        readable = scene::read(job.xml, options, assets).scene;
+    } catch (const Error&) {
+        return;  // the errors of the document are already in the list
+    }
+    Diagnostics findings;
+    generator::resolve(readable, assets, findings);
+    for (Diagnostic& finding : findings)
+        if (finding.severity == Severity::error && finding.code == "asset.missing")
+            errors.push_back(std::move(finding));
+}
+
+/// Throws Error with the missing files too.
+scene::ReadResult readScene(const Job& job, const scene::Assets& assets) {
+    scene::ReadOptions options;
+    options.name = job.name;
+    options.path = job.path;
+    options.strict = job.strict;
+    options.leaveOut = job.options.missing == Missing::placeholder;
+    try {
+        return scene::read(job.xml, options, assets);
+    } catch (const Error& error) {
+        if (options.leaveOut) throw;
+        Diagnostics errors = error.diagnostics();
+        addMissingFiles(errors, job, options, assets);
+        capFindings(errors);
+        throw Error(std::move(errors));
+    }
+}
+
+}  // namespace
 
 Prepared prepare(const Job& job) {
     if (!job.archive.empty()) return prepare(unpacked(job));
@@ -178,12 +215,7 @@ Prepared prepare(const Job& job) {
         }
         model.source = {};
     } else {
-        scene::ReadOptions options;
-        options.name = job.name;
-        options.path = job.path;
-        options.strict = job.strict;
-        options.leaveOut = job.options.missing == Missing::placeholder;
-        scene::ReadResult result = scene::read(job.xml, options, *prepared.assets);
+        scene::ReadResult result = readScene(job, *prepared.assets);
         prepared.scene = std::move(result.scene);
         std::move(result.diagnostics.begin(), result.diagnostics.end(),
                   std::back_inserter(prepared.diagnostics));

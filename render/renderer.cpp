@@ -13,9 +13,12 @@
 #include "render/plan/camera.h"
 #include "render/plan/cost.h"
 #include "render/plan/instances.h"
+#include "render/plan/messages.h"
 #include "render/plan/overlay.h"
 #include "render/plan/plan.h"
 #include "render/plan/quality.h"
+#include "render/plan/skybox.h"
+#include "render/plan/texture_levels.h"
 #include "render/plan/visibility.h"
 #include "render/prepare.h"
 #include "scene/animation.h"
@@ -42,8 +45,9 @@ struct KeptPlaces {
 image::Image chessBoard(const scene::Chess& chess) {
     // Fields of 32 texels: mipmaps have something to average, and edges stay sharp when magnified.
     constexpr int kField = 32;
-    constexpr int kMost = 4096;
-    const int field = std::max(1, std::min(kField, kMost / std::max(chess.columns, chess.rows)));
+    constexpr int kMaxChessSide = 4096;
+    const int field =
+        std::max(1, std::min(kField, kMaxChessSide / std::max(chess.columns, chess.rows)));
     image::Image image{chess.columns * field, chess.rows * field, {}};
     image.pixels.reserve(static_cast<std::size_t>(image.width) *
                          static_cast<std::size_t>(image.height) * 4);
@@ -62,7 +66,8 @@ image::Image chessBoard(const scene::Chess& chess) {
 UndecodedTexture openTexture(const TextureRef& ref, const scene::Assets& assets) {
     if (ref.chess) return {0, 0, [&ref](std::string&) { return chessBoard(*ref.chess); }};
     auto bytes = assets.read(ref.path);
-    if (!bytes) throw Error("asset.missing", "there is no file '" + ref.path + "'", ref.where);
+    if (!bytes)
+        throw Error(message<"asset.missing/image-file">("file"_arg = uncut(ref.path)), ref.where);
     const image::ImageSize size = image::imageSize(*bytes, ref.path, ref.where);
     // Shared, for a copy of the function is no copy of the file.
     const auto file = std::make_shared<const std::string>(std::move(*bytes));
@@ -113,6 +118,20 @@ bool isBlank(const FramePlan& frame, const image::Image& image) {
 void takeFindings(Diagnostics& diagnostics, const Diagnostics& findings, const Job& job) {
     diagnostics.insert(diagnostics.end(), findings.begin(), findings.end());
     refuseErrors(diagnostics, job);
+}
+
+/// Warns where the skybox's image is not a cross. Throws as imageSize.
+Diagnostics checkSkybox(const scene::Skybox& skybox, const scene::Assets& assets) {
+    TextureRef ref;
+    ref.path = skybox.path;
+    ref.where = skybox.where;
+    const UndecodedTexture texture = openTexture(ref, assets);
+    if (isCross(texture.width, texture.height)) return {};
+    TextureNote note;
+    note.kind = TextureNote::Kind::noCross;
+    note.width = texture.width;
+    note.height = texture.height;
+    return {warningOf(note, ref)};
 }
 
 }  // namespace
@@ -196,7 +215,7 @@ Picture Renderer::State::draw(const Prepared& prepared, const Placed& placed, co
     const double total = watch.lapMs();
     picture.times.drawMs = timings.drawMs;
     picture.times.readbackMs = timings.readbackMs;
-    // What the painter did before drawing was decoding and uploading.
+    // The rest of the painter's time is decoding and uploading.
     picture.times.geometryMs += total - timings.drawMs - timings.readbackMs;
 
     if (job.options.debug && job.options.layer == Layer::color)
@@ -253,13 +272,15 @@ SceneReport inspect(const Job& job) {
         if (!texture || texture->path.empty() || !textures.insert(texture->path).second) continue;
         const auto bytes = prepared.assets->read(texture->path);
         if (!bytes)
-            throw Error("asset.missing", "there is no file '" + texture->path + "'",
+            throw Error(message<"asset.missing/image-file">("file"_arg = uncut(texture->path)),
                         texture->where);
         image::imageSize(*bytes, texture->path,
                          texture->where);  // a damaged head is news to the author
         report.textureBytes += static_cast<std::int64_t>(bytes->size());
     }
     report.textures = static_cast<int>(textures.size());
+    if (scene.skybox && !scene.skybox->path.empty())
+        takeFindings(report.diagnostics, checkSkybox(*scene.skybox, *prepared.assets), job);
     return report;
 }
 

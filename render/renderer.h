@@ -67,7 +67,8 @@ struct SceneReport {
     std::string title, description;
     int width = 512, height = 512;
     bool animated = false;
-    /// What an animation shows: the scene's own time range, else one loop (scene/loop.h) from 0.
+    /// The time range of an animation, seconds: the scene's own time range, else one loop
+    /// (scene/loop.h) from 0.
     std::optional<glm::dvec2> playS;
     scene::Camera camera;
     std::int64_t triangles = 0;
@@ -77,7 +78,7 @@ struct SceneReport {
     std::vector<std::uint32_t> copies;   ///< the element of the number i + 1 in a layer=id picture
 };
 
-/// Draws scenes with one GL context of its own. Not shareable between threads: each thread makes
+/// Draws scenes with its own GL context. Not shareable between threads: each thread makes
 /// its own. Caches change the time taken, never the bytes. Create throws std::runtime_error
 /// when there is no GL.
 class Renderer {

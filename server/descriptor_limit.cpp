@@ -16,7 +16,7 @@ namespace {
 // Standard ones, socket, epoll, inotify, the store's lock, the pipe of workers' output; libraries.
 constexpr std::uint64_t kBase = 32;
 constexpr std::uint64_t kPerThread = 2, kPerProcess = 2;
-constexpr int kLeastConnections = 16;
+constexpr int kMinConnections = 16;
 
 }  // namespace
 
@@ -33,7 +33,7 @@ int connectionsWithin(std::uint64_t limit, const DescriptorUse& use, int wanted,
     const std::uint64_t reserved = kBase + kPerThread * static_cast<std::uint64_t>(use.threads) +
                                    kPerProcess * static_cast<std::uint64_t>(use.processes);
     const std::uint64_t room = limit > reserved ? limit - reserved : 0;
-    const int least = isSet ? wanted : std::min(wanted, kLeastConnections);
+    const int least = isSet ? wanted : std::min(wanted, kMinConnections);
     if (room < static_cast<std::uint64_t>(least))
         throw Error(message<"option.range/descriptors">(
                         "limit"_arg = limit, "reserved"_arg = reserved, "threads"_arg = use.threads,

@@ -45,8 +45,8 @@ void FolderWatch::giveUp(const std::string& why) {
 void FolderWatch::watchAll() {
     std::vector<fs::path> folders{root_};
     for (std::size_t i = 0; i < folders.size(); ++i) {
-        if (folders.size() > kMostFolders)
-            return giveUp("it has more than " + std::to_string(kMostFolders) + " folders");
+        if (folders.size() > kMaxFolders)
+            return giveUp("it has more than " + std::to_string(kMaxFolders) + " folders");
         if (::inotify_add_watch(fd_, folders[i].c_str(), kChanges) < 0) {
             // Gone meanwhile, or not to be read by us, as its files then are not either.
             if (errno == ENOENT || errno == ENOTDIR || errno == EACCES) continue;
@@ -89,7 +89,7 @@ bool FolderWatch::takeNotes() {
 std::optional<std::uint64_t> FolderWatch::revision() {
     if (!isWatched_) return std::nullopt;
     const auto now = std::chrono::steady_clock::now();
-    if (hasNotes() || now - renewed_.load() >= kLongest) {
+    if (hasNotes() || now - renewed_.load() >= kMaxDelay) {
         const std::lock_guard lock(mutex_);
         // Before the notes are gone: who sees none left must see another number. And after new
         // folders are watched: changes in them before that were missed.

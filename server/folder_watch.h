@@ -27,8 +27,8 @@ class FolderWatch {
     /// Why the folder is not watched; empty while it is.
     std::string fault() const;
 
-    static constexpr std::size_t kMostFolders = 4096;
-    static constexpr std::chrono::seconds kLongest{1};
+    static constexpr std::size_t kMaxFolders = 4096;
+    static constexpr std::chrono::seconds kMaxDelay{1};
 
   private:
     void watchAll();

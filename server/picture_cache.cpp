@@ -4,7 +4,7 @@ namespace farol::server {
 namespace {
 
 // One picture must not sweep out all others.
-constexpr std::size_t kLeastPictures = 4;
+constexpr std::size_t kMinPictures = 4;
 
 /// Returns its memory use, with the overhead of allocator and map: small images are no larger
 /// than that.
@@ -31,7 +31,7 @@ std::optional<http::Response> PictureCache::find(const std::string& tag) {
 
 void PictureCache::put(const std::string& tag, const http::Response& response) {
     const std::size_t cost = costOf(tag, response);
-    if (cost > most_ / kLeastPictures) return;
+    if (cost > most_ / kMinPictures) return;
     auto kept = std::make_shared<http::Response>(response);
     kept->shared = std::make_shared<const std::string>(std::move(kept->body));
     kept->body.clear();

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kMaxClients = 10'000;
 constexpr std::size_t kMaxAddress = 64;  // of a key: a proxy may pass on any text
-constexpr int kLeastBurst = 20;          // a page opens with a screenful of thumbnails
+constexpr int kMinBurst = 20;            // a page opens with a screenful of thumbnails
 
 }  // namespace
 
@@ -28,7 +28,7 @@ std::string clientOf(const http::Request& request, bool trustProxy) {
 
 RateLimiter::RateLimiter(RateLimit limit) : limit_(limit), buckets_(kMaxClients) {
     if (limit_.burst == 0)
-        limit_.burst = std::max(kLeastBurst, static_cast<int>(std::ceil(2 * limit_.perSecond)));
+        limit_.burst = std::max(kMinBurst, static_cast<int>(std::ceil(2 * limit_.perSecond)));
 }
 
 void RateLimiter::admit(const std::string& client, Clock::time_point now) {

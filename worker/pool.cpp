@@ -21,7 +21,7 @@ constexpr int kStarters = 4;
 // Processor time that a worker without a job may use: freeing memory, writing caches.
 constexpr std::chrono::seconds kIdleCpu{1};
 
-WorkerOptions withSaid(WorkerOptions options, int descriptor) {
+WorkerOptions withOutput(WorkerOptions options, int descriptor) {
     options.said = descriptor;
     return options;
 }
@@ -41,8 +41,8 @@ int sparesOf(const PoolOptions& options) {
 WorkerPool::WorkerPool(PoolOptions options, EventLog log)
     : options_(std::move(options)),
       log_(std::move(log)),
-      said_([this](const std::string& line) { log_("worker-said", line); }),
-      nursery_({withSaid(options_.worker, said_.descriptor()),
+      output_([this](const std::string& line) { log_("worker-said", line); }),
+      spawner_({withOutput(options_.worker, output_.descriptor()),
                 std::max(1, std::min(options_.workers, kStarters)), sparesOf(options_)},
                [this](const std::string& fault) {
                    log_("worker-start", fault);
@@ -52,7 +52,7 @@ WorkerPool::WorkerPool(PoolOptions options, EventLog log)
                }),
       queue_(withSlack(options_.queue)),
       quarantine_(options_.quarantine) {
-    nursery_.begin(options_.workers);
+    spawner_.begin(options_.workers);
     for (int i = 0; i < options_.workers; ++i) threads_.emplace_back([this, i] { serveSlot(i); });
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [this] { return anyReady_ || anyFailed_; });
@@ -65,7 +65,7 @@ void WorkerPool::stop() {
         const std::lock_guard lock(mutex_);
         stopping_ = true;
     }
-    nursery_.stop();
+    spawner_.stop();
     queue_.close();
     for (std::thread& thread : threads_) thread.join();
     threads_.clear();
@@ -99,7 +99,7 @@ bool WorkerPool::ready(Slot& slot, std::chrono::milliseconds patience) {
     if (slot.process && cpuTimeOf(slot.process->pid()) - slot.cpuWhenIdle > kIdleCpu)
         drop(slot, "busy");
     if (slot.process) return true;
-    slot.process = nursery_.take(patience);
+    slot.process = spawner_.take(patience);
     if (!slot.process) return false;
     slot.cpuWhenIdle = cpuTimeOf(slot.process->pid());
     {

@@ -11,10 +11,10 @@
 
 #include "worker/backend.h"
 #include "worker/event_log.h"
-#include "worker/nursery.h"
 #include "worker/quarantine.h"
 #include "worker/queue.h"
-#include "worker/said.h"
+#include "worker/worker_output.h"
+#include "worker/worker_spawner.h"
 
 namespace farol::worker {
 
@@ -78,8 +78,8 @@ class WorkerPool final : public Backend {
 
     const PoolOptions options_;
     EventLog log_;
-    Said said_;
-    Nursery nursery_;
+    WorkerOutput output_;
+    WorkerSpawner spawner_;
     Queue queue_;
     Quarantine quarantine_;
     mutable std::mutex mutex_;

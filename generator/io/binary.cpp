@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "generator/io/formats.h"
+#include "generator/messages.h"
 
 /// Our binary form, little-endian: "FAROL3D\n", version (u32: 1), flags (u32: 1 normals, 2 UVs, 4
 /// places in double, 8 colours), vertices (u32), indices (u32), then x y z each (float, or double),
@@ -54,7 +55,7 @@ void getAll(std::string_view& bytes, std::size_t count, std::vector<Vector>& lis
         for (int k = 0; k < N; ++k) {
             const double number = getNumber(bytes, isDouble);
             if (finite && !(std::abs(number) <= kMaxCoordinate))
-                throw Error("mesh.number", "a number is not finite or beyond 1e18", {file, 0, 0});
+                throw Error(message<"mesh.number/stored">(), {file, 0, 0});
             value[k] = static_cast<typename Vector::value_type>(number);
         }
     }
@@ -88,28 +89,28 @@ std::string encodeBinary(const Mesh& mesh) {
 bool looksLikeBinary(std::string_view bytes) { return bytes.substr(0, kMagic.size()) == kMagic; }
 
 RawMesh decodeBinary(std::string_view bytes, const std::string& fileName) {
-    const auto fail = [&fileName](const char* code, const std::string& message) {
-        throw Error(code, message, {fileName, 0, 0});
+    const auto fail = [&fileName](Message message) {
+        throw Error(std::move(message), {fileName, 0, 0});
     };
-    if (bytes.size() < kHeader + kChecksum) fail("mesh.truncated", "the binary mesh is cut off");
+    if (bytes.size() < kHeader + kChecksum) fail(message<"mesh.truncated/binary">());
     std::string_view rest = bytes.substr(kMagic.size());
     const auto version = get<std::uint32_t>(rest), flags = get<std::uint32_t>(rest);
     const std::uint64_t vertices = get<std::uint32_t>(rest), indices = get<std::uint32_t>(rest);
     if (version != kVersion)
-        fail("mesh.format", "the binary mesh has version " + std::to_string(version) +
-                                "; this program reads version 1");
-    if (flags > (kNormals | kUvs | kDoubles | kColors))
-        fail("mesh.format", "the binary mesh has unknown parts");
+        fail(message<"mesh.format/version">("version"_arg = version, "expected"_arg = kVersion));
+    if (flags > (kNormals | kUvs | kDoubles | kColors)) fail(message<"mesh.format/binary">());
     const bool isDouble = (flags & kDoubles) != 0;
     const std::uint64_t floats = (isDouble ? 6U : 3U) + ((flags & kNormals) != 0 ? 3U : 0) +
                                  ((flags & kUvs) != 0 ? 2U : 0) + ((flags & kColors) != 0 ? 1U : 0);
-    if (bytes.size() != kHeader + 4 * (floats * vertices + indices) + kChecksum)
-        fail("mesh.truncated", "the binary mesh has another length than its counts say");
+    const std::uint64_t expected = kHeader + 4 * (floats * vertices + indices) + kChecksum;
+    if (bytes.size() != expected)
+        fail(message<"mesh.truncated/binary-length">("bytes"_arg = bytes.size(),
+                                                     "expected"_arg = expected));
     std::string_view tail = bytes.substr(bytes.size() - kChecksum);
     if (checksum(bytes.substr(0, bytes.size() - kChecksum)) != get<std::uint64_t>(tail))
-        fail("mesh.checksum", "the binary mesh is damaged: its checksum differs");
-    if (indices % 3 != 0) fail("mesh.truncated", "the number of indices is no multiple of three");
-    if (indices == 0) fail("mesh.empty", "the binary mesh holds no triangles");
+        fail(message<"mesh.checksum">());
+    if (indices % 3 != 0) fail(message<"mesh.truncated/indices">("count"_arg = indices));
+    if (indices == 0) fail(message<"mesh.empty/triangles">());
     checkTriangles(indices / 3, fileName);
     RawMesh mesh;
     getAll<3>(rest, vertices, mesh.positions, fileName, true, isDouble);
@@ -125,7 +126,8 @@ RawMesh decodeBinary(std::string_view bytes, const std::string& fileName) {
     mesh.indices.resize(indices);
     for (std::uint32_t& index : mesh.indices) {
         index = get<std::uint32_t>(rest);
-        if (index >= vertices) fail("mesh.index", "an index is out of range");
+        if (index >= vertices)
+            fail(message<"mesh.index/range">("index"_arg = index, "count"_arg = vertices));
     }
     return mesh;
 }

@@ -17,7 +17,7 @@ struct EarTriangle {
     glm::dvec2 a, b, c;
     bool closed;
 
-    /// False at the places of its own corners: faces with holes go through some corners twice.
+    /// False at its corners: faces with holes go through some corners twice.
     bool contains(const glm::dvec2& p) const;
     /// False only where no point of the box is inside.
     bool meets(const glm::dvec2& low, const glm::dvec2& high) const;

@@ -27,10 +27,10 @@ float rawFloatAt(std::string_view bytes, std::size_t word) {
 /// The numbers without the count that may stand before them.
 std::string_view withoutCount(std::string_view bytes) {
     if (bytes.size() % kPlacesBytes != kFloatBytes) return bytes;
-    const double said = floatWordAt(bytes, 0);
+    const double headCount = floatWordAt(bytes, 0);
     const auto floats = static_cast<double>(bytes.size() / kFloatBytes - 1);
     for (const double one : {1.0, 3.0, 9.0, 6.0, 8.0, 18.0, 24.0})  // a number, vertex or triangle
-        if (said * one == floats) return bytes.substr(kFloatBytes);
+        if (headCount * one == floats) return bytes.substr(kFloatBytes);
     return bytes;
 }
 

@@ -7,6 +7,7 @@
 #include "core/text.h"
 #include "generator/io/formats.h"
 #include "generator/io/rows.h"
+#include "generator/messages.h"
 
 namespace farol::generator::io {
 namespace {
@@ -74,8 +75,7 @@ void Gathered::add(Role role, const std::vector<double>& run, int line) {
             const bool withUv = count == 8 || count == 5;
             const std::size_t places = withNormal || withUv ? 3 : count;
             for (std::size_t k = 0; k < places; ++k) {
-                if (std::isnan(run[k]))
-                    fail("mesh.number", "a coordinate is NaN or infinite; expected a number", line);
+                if (std::isnan(run[k])) fail(message<"mesh.number/nan">(), line);
                 positions_.push_back(run[k]);
             }
             if (withNormal) normals_.insert(normals_.end(), run.begin() + 3, run.begin() + 6);
@@ -114,22 +114,15 @@ void Gathered::takeIndices(RawMesh& mesh) {
         mesh.indices.resize(vertices);
         std::iota(mesh.indices.begin(), mesh.indices.end(), 0U);
         if (vertices % 3 != 0)
-            fail("mesh.truncated",
-                 "the number of vertices, " + std::to_string(vertices) +
-                     ", is not a multiple of three, and there are no indices",
-                 lastLine_);
+            fail(message<"mesh.truncated/indices-missing">("count"_arg = vertices), lastLine_);
         return;
     }
     if (all.size() % 3 != 0)
-        fail(
-            "mesh.truncated",
-            "the number of indices, " + std::to_string(all.size()) + ", is not a multiple of three",
-            lastLine_);
+        fail(message<"mesh.truncated/indices">("count"_arg = all.size()), lastLine_);
     const double base = indexBase(all.data(), all.data() + all.size(), vertices);
     for (const double value : all) {
         if (!isCount(value - base) || value - base >= static_cast<double>(vertices))
-            fail("mesh.index",
-                 "an index is out of range: there are " + std::to_string(vertices) + " vertices",
+            fail(message<"mesh.index/range">("index"_arg = value - base, "count"_arg = vertices),
                  firstIndex_);
         mesh.indices.push_back(static_cast<std::uint32_t>(value - base));
     }
@@ -143,14 +136,11 @@ RawMesh Gathered::take() {
         positions_.assign(indices_.begin() + (countFirst ? 1 : 0), indices_.end());
         indices_.clear();
         for (const double value : positions_)
-            if (std::isnan(value))
-                fail("mesh.number", "a coordinate is NaN or infinite", lastLine_);
+            if (std::isnan(value)) fail(message<"mesh.number/nan">(), lastLine_);
     }
-    if (positions_.empty()) fail("mesh.empty", "the mesh file holds no vertices", lastLine_);
+    if (positions_.empty()) fail(message<"mesh.empty/vertices">(), lastLine_);
     if (positions_.size() % 3 != 0)
-        fail("mesh.truncated",
-             "the number of coordinates, " + std::to_string(positions_.size()) +
-                 ", is not a multiple of three",
+        fail(message<"mesh.truncated/coordinates">("count"_arg = positions_.size()),
              firstPosition_);
     const std::size_t vertices = positions_.size() / 3;
     checkCounts(vertices, std::max(indices_.size(), vertices) / 3, file_);

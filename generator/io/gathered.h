@@ -9,14 +9,14 @@
 
 namespace farol::generator::io {
 
-/// What numbers are for, by the words of a file that names its lists.
+/// The role of numbers, by the words of a file that names its lists.
 enum class Role { none, positions, normals, uvs, indices, component };
 
 /// The role of a word, any case: "v", "Vertices", "positions", "vertice", "n", "normals", "uv",
 /// "texcoords", "i", "faces", "triangles", ...; `component` for x, y, z and the like.
 Role roleOf(std::string_view word);
 
-/// What the number behind a component's word belongs to; `list` is the list that it stands in.
+/// Returns the list of the number after a component's word; `list` is the list that it stands in.
 Role componentOf(std::string_view word, Role list);
 
 /// Numbers by their role, in the file's order, and the mesh that they make.
@@ -36,8 +36,8 @@ class Gathered {
     RawMesh take();
 
   private:
-    [[noreturn]] void fail(const char* code, const std::string& message, int line) const {
-        throw Error(code, message, {file_, line, line > 0 ? 1 : 0});
+    [[noreturn]] void fail(Message message, int line) const {
+        throw Error(std::move(message), {file_, line, line > 0 ? 1 : 0});
     }
     void takeIndices(RawMesh& mesh);
 

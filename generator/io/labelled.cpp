@@ -3,6 +3,7 @@
 
 #include "generator/io/formats.h"
 #include "generator/io/gathered.h"
+#include "generator/messages.h"
 
 /// Files that name their numbers: "v: 0 1 2", "VERTICES:" before its rows, JSON, XML.
 namespace farol::generator::io {
@@ -60,7 +61,7 @@ class LabelReader {
             if (std::none_of(token.begin(), token.end(), isLetterOrDigit))
                 continue;  // a rule: ----
             if (!isLetterOf(token[0]))
-                throw Error("mesh.syntax", quotedToken(token) + " is not a number", where);
+                throw Error(message<"mesh.syntax/number">("value"_arg = printable(token)), where);
             words = true;
             const Role role = roleOf(token);
             // The second of a pair u, v.
@@ -93,7 +94,7 @@ class LabelReader {
         loose.clear();
     }
 
-    static std::string quotedToken(std::string_view token);
+    static std::string printable(std::string_view token);
 
     /// Words end before digits' neighbours only at what stands between.
     static std::size_t endOf(std::string_view line, std::size_t at) {
@@ -128,12 +129,12 @@ class LabelReader {
     std::array<std::vector<double>, 6> loose_;  ///< by role: of a vertex that is not complete
 };
 
-std::string LabelReader::quotedToken(std::string_view token) {
+std::string LabelReader::printable(std::string_view token) {
     std::string shown(token.substr(0, 24));
     std::replace_if(
         shown.begin(), shown.end(),
         [](char c) { return static_cast<unsigned char>(c - 0x20) > 0x5E; }, '?');
-    return "\"" + shown + "\"";
+    return shown;
 }
 
 /// Elements with numbers as attributes or text: <Vertex x="0" y="1" z="2"/>, <face>0 1 2</face>.
@@ -153,7 +154,7 @@ class ElementReader {
     }
 
   private:
-    static constexpr std::size_t kDeepest = 64;
+    static constexpr std::size_t kMaxDepth = 64;
 
     void readTag() {
         if (text_.compare(at_, 4, "<!--") == 0) return skipTo("-->");
@@ -183,7 +184,7 @@ class ElementReader {
         const Role role = own == Role::none || own == Role::component ? above : own;
         readAttributes(tag.substr(end), role);
         const bool closed = tag.back() == '/';
-        if (!closed && roles_.size() < kDeepest) roles_.push_back(role);
+        if (!closed && roles_.size() < kMaxDepth) roles_.push_back(role);
     }
 
     /// Name, =, value in quotes; values that are no numbers say nothing.

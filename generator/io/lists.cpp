@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "generator/io/formats.h"
+#include "generator/messages.h"
 
 namespace farol::generator::io {
 namespace {
@@ -35,11 +36,11 @@ NumberRows numbersOf(std::string_view list, std::string_view all, const std::str
 }
 
 template <int N, class Vector>
-std::vector<Vector> vectorsOf(const NumberRows& rows, const std::string& what) {
+std::vector<Vector> vectorsOf(const NumberRows& rows, const Message& kind) {
     if (rows.values.size() % N != 0)
-        rows.refuse("mesh.truncated", rows.rows[0],
-                    "the list of " + what + " has " + std::to_string(rows.values.size()) +
-                        " numbers, not a multiple of " + std::to_string(N));
+        rows.refuse(message<"mesh.truncated/list">(
+                        "kind"_arg = kind, "count"_arg = rows.values.size(), "width"_arg = N),
+                    rows.rows[0]);
     std::vector<Vector> out(rows.values.size() / N);
     for (std::size_t i = 0; i < rows.values.size(); ++i)
         out[i / N][static_cast<int>(i % N)] =
@@ -49,11 +50,11 @@ std::vector<Vector> vectorsOf(const NumberRows& rows, const std::string& what) {
 
 template <class Vector>
 void checkAsLong(const NumberRows& rows, const std::vector<Vector>& list, std::size_t positions,
-                 const std::string& what) {
+                 const Message& kind) {
     if (list.size() != positions)
-        rows.refuse("mesh.truncated", rows.rows[0],
-                    "there are " + std::to_string(list.size()) + " " + what + " for " +
-                        std::to_string(positions) + " positions");
+        rows.refuse(message<"mesh.truncated/unequal">("count"_arg = list.size(), "kind"_arg = kind,
+                                                      "positions"_arg = positions),
+                    rows.rows[0]);
 }
 
 }  // namespace
@@ -68,7 +69,7 @@ RawMesh decodeLists(std::string_view bytes, const std::string& file) {
     const auto lists = split(bytes);
     RawMesh mesh;
     const NumberRows places = numbersOf(lists[0], bytes, file);
-    mesh.positions = vectorsOf<3, glm::dvec3>(places, "positions");
+    mesh.positions = vectorsOf<3, glm::dvec3>(places, message<"part.positions">());
     for (std::size_t i = 0; i + 2 < places.values.size(); i += 3)
         placeAt(places, places.rows[0], &places.values[i]);
     const NumberRows indices = numbersOf(lists[1], bytes, file);
@@ -79,19 +80,18 @@ RawMesh decodeLists(std::string_view bytes, const std::string& file) {
         mesh.indices.push_back(
             indexIn(indices, indices.rows[0], value - base, mesh.positions.size()));
     if (mesh.indices.size() % 3 != 0)
-        indices.refuse("mesh.truncated", indices.rows[0],
-                       "the number of indices, " + std::to_string(mesh.indices.size()) +
-                           ", is not a multiple of three");
+        indices.refuse(message<"mesh.truncated/indices">("count"_arg = mesh.indices.size()),
+                       indices.rows[0]);
     checkTriangles(mesh.indices.size() / 3, file);
     if (lists.size() > 2) {
         const NumberRows rows = numbersOf(lists[2], bytes, file);
-        mesh.normals = vectorsOf<3, glm::vec3>(rows, "normals");
-        checkAsLong(rows, mesh.normals, mesh.positions.size(), "normals");
+        mesh.normals = vectorsOf<3, glm::vec3>(rows, message<"part.normals">());
+        checkAsLong(rows, mesh.normals, mesh.positions.size(), message<"part.normals">());
     }
     if (lists.size() > 3) {
         const NumberRows rows = numbersOf(lists[3], bytes, file);
-        mesh.uvs = vectorsOf<2, glm::dvec2>(rows, "texture coordinates");
-        checkAsLong(rows, mesh.uvs, mesh.positions.size(), "texture coordinates");
+        mesh.uvs = vectorsOf<2, glm::dvec2>(rows, message<"part.uvs">());
+        checkAsLong(rows, mesh.uvs, mesh.positions.size(), message<"part.uvs">());
     }
     return mesh;
 }

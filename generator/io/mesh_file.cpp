@@ -72,7 +72,7 @@ std::vector<glm::dvec3> decodeProfile(std::string_view bytes, const std::string&
     const NumberRows rows = parseRows(bytes, fileName);
     for (const Row& row : rows.rows) {
         if (row.count != 2 && row.count != 3)
-            rows.refuse("mesh.syntax", row, "a profile has two or three numbers a line");
+            rows.refuse(message<"mesh.syntax/profile">("count"_arg = row.count), row);
         const double at[3] = {rows.at(row)[0], rows.at(row)[1], 0.0};
         points.push_back(placeAt(rows, row, at));
     }

@@ -11,7 +11,7 @@
 /// Mesh files in and out.
 namespace farol::generator::io {
 
-/// What `encodeMesh` writes: our blank-line-separated text, Wavefront OBJ, ascii PLY, and our
+/// The formats of `encodeMesh`: our blank-line-separated text, Wavefront OBJ, ascii PLY, and our
 /// binary form (binary.h).
 enum class Format { text3d, obj, ply, binary };
 

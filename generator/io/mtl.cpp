@@ -13,10 +13,10 @@
 namespace farol::generator::io {
 namespace {
 
-constexpr std::size_t kMostLibraries = 16;
-constexpr std::size_t kMostMaterials = 4096;
-constexpr std::size_t kLongestName = 256;
-constexpr float kMostShininess = 10'000.0F;
+constexpr std::size_t kMaxLibraries = 16;
+constexpr std::size_t kMaxMaterials = 4096;
+constexpr std::size_t kMaxNameBytes = 256;
+constexpr float kMaxShininess = 10'000.0F;
 
 bool isBlankChar(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 
@@ -88,15 +88,15 @@ class MtlReader {
   private:
     void begin(std::string_view name) {
         close();
-        if (materials_.size() == kMostMaterials) {
-            ++leftOut_["materials after the first " + std::to_string(kMostMaterials)];
+        if (materials_.size() == kMaxMaterials) {
+            ++leftOut_["materials after the first " + std::to_string(kMaxMaterials)];
             return;
         }
         isDull_ = false;
-        materials_.emplace_back().name = std::string(name.substr(0, kLongestName));
+        materials_.emplace_back().name = std::string(name.substr(0, kMaxNameBytes));
     }
 
-    /// What depends on several lines of a material.
+    /// Settles the values that depend on several lines of a material.
     void close() {
         if (materials_.empty()) return;
         scene::PartMaterial& part = materials_.back();
@@ -106,7 +106,7 @@ class MtlReader {
         if (part.texture && material.diffuse.rgb == glm::vec3(0.0F))
             material.diffuse.rgb = glm::vec3(1.0F);
         material.ambient.rgb = 0.25F * material.diffuse.rgb;
-        material.shininess = std::clamp(material.shininess, 0.0F, kMostShininess);
+        material.shininess = std::clamp(material.shininess, 0.0F, kMaxShininess);
     }
 
     std::optional<double> number(std::string_view& line) const {
@@ -177,7 +177,7 @@ class MtlReader {
         if (line.size() > 1 && line.front() == '"' && line.back() == '"')
             line = line.substr(1, line.size() - 2);
         if (line.empty()) return;
-        texture.file = std::string(line.substr(0, 4 * kLongestName));
+        texture.file = std::string(line.substr(0, 4 * kMaxNameBytes));
         std::replace(texture.file.begin(), texture.file.end(), '\\', '/');
         part.texture = std::move(texture);
     }
@@ -208,11 +208,11 @@ std::vector<std::string> materialLibraries(std::string_view obj) {
         rest = trimBlanks(rest);
         if (rest.size() > 1 && rest.front() == '"' && rest.back() == '"')
             rest = rest.substr(1, rest.size() - 2);
-        std::string name(rest.substr(0, 4 * kLongestName));
+        std::string name(rest.substr(0, 4 * kMaxNameBytes));
         std::replace(name.begin(), name.end(), '\\', '/');
         if (!name.empty() && std::find(names.begin(), names.end(), name) == names.end())
             names.push_back(std::move(name));
-        if (names.size() == kMostLibraries) break;
+        if (names.size() == kMaxLibraries) break;
     }
     return names;
 }

@@ -62,7 +62,7 @@ class Reader {
         if (corners_.empty() && !problem_ && fileEnding(file_) != "obj") takeSoup();
         if (corners_.empty()) {
             if (problem_) throw Error(Diagnostics{*problem_});
-            fail("mesh.empty", "the OBJ file holds no faces");
+            fail(message<"mesh.empty/faces">("format"_arg = "OBJ"));
         }
         if (bareCorners_ > 0 && bareCorners_ < corners_.size()) {
             mesh_.leftOut["normals, since other corners have none"] +=
@@ -85,8 +85,8 @@ class Reader {
     using dvec2 = glm::dvec2;
     using dvec3 = glm::dvec3;
 
-    [[noreturn]] void fail(const char* code, const std::string& message) const {
-        throw Error(code, message, {file_, line_, 1});
+    [[noreturn]] void fail(Message message) const {
+        throw Error(std::move(message), {file_, line_, 1});
     }
 
     template <class Vector>
@@ -103,11 +103,10 @@ class Reader {
             const std::string_view word = nextObjWord(line);
             if (word.empty() && k >= needed) break;
             if (word.empty())
-                fail("mesh.truncated", "expected " + std::to_string(needed) + " numbers");
+                fail(message<"mesh.truncated/vector">("count"_arg = k, "needed"_arg = needed));
             const std::optional<double> number = numberOf(word, {file_, line_, 1});
-            if (!number) fail("mesh.syntax", quoted(word) + " is not a number");
-            if (!nanAllowed && std::isnan(*number))
-                fail("mesh.number", "a coordinate is NaN or infinite; expected a number");
+            if (!number) fail(message<"mesh.syntax/number">("value"_arg = word));
+            if (!nanAllowed && std::isnan(*number)) fail(message<"mesh.number/nan">());
             value[k] = *number;
         }
         return value;
@@ -144,7 +143,7 @@ class Reader {
         std::size_t count = 0;
         for (std::string_view word = nextObjWord(line); !word.empty(); word = nextObjWord(line)) {
             const std::optional<double> number = numberOf(word, {file_, line_, 1});
-            if (!number) fail("mesh.syntax", quoted(word) + " is not a number");
+            if (!number) fail(message<"mesh.syntax/number">("value"_arg = word));
             if (count < more.size()) more[count] = *number;
             ++count;
         }
@@ -195,18 +194,33 @@ class Reader {
         const auto [stop, failed] = std::from_chars(word.data(), end, number);
         if (base_ == 0 && number >= 0) ++number;
         if (stop != end || failed == std::errc::invalid_argument || number == 0)
-            fail("mesh.syntax", quoted(word) + " is no index");
+            fail(message<"mesh.syntax/index">("value"_arg = word));
         const auto count = static_cast<std::int64_t>(size);
         const std::int64_t at = number > 0 ? number - 1 : count + number;
         if (failed != std::errc() || number < -count || number > count) return -2;
         return static_cast<std::int32_t>(at);  // lists are within kMaxVertices
     }
 
+    /// Of part 0 to 2 of a corner, v/vt/vn; `count` of its kind are read.
+    static Message outOfRange(std::size_t part, std::string_view index, std::size_t count) {
+        if (part == 1) return message<"mesh.index/uvs">("index"_arg = index, "count"_arg = count);
+        if (part == 2)
+            return message<"mesh.index/normals">("index"_arg = index, "count"_arg = count);
+        return message<"mesh.index/range">("index"_arg = index, "count"_arg = count);
+    }
+
+    /// Of part 0 to 2 of a corner, v/vt/vn; `count` of its kind are read.
+    static Message outOfRange(std::size_t part, std::string_view index, std::size_t count) {
+        if (part == 1) return message<"mesh.index/uvs">("index"_arg = index, "count"_arg = count);
+        if (part == 2)
+            return message<"mesh.index/normals">("index"_arg = index, "count"_arg = count);
+        return message<"mesh.index/range">("index"_arg = index, "count"_arg = count);
+    }
+
     /// Nothing where one of its indices is out of range.
     std::optional<Corner> corner(std::string_view word) {
         Corner out{-1, -1, -1};
         const std::size_t sizes[3] = {positions_.size(), uvs_.size(), normals_.size()};
-        const char* const names[3] = {"vertices", "texture coordinates", "normals"};
         for (std::size_t k = 0; k < 3; ++k) {
             const std::size_t end = std::min(word.find('/'), word.size());
             const std::string_view part = word.substr(0, end);
@@ -214,24 +228,19 @@ class Reader {
             if (out[k] == -2 && k > 0 && sizes[k] == 0) {
                 out[k] = -1;  // a file that has none at all
             } else if (out[k] == -2) {
-                note("mesh.index", "the index " + std::string(part.substr(0, 24)) +
-                                       " is out of range: there are " + std::to_string(sizes[k]) +
-                                       " " + names[k]);
+                note(outOfRange(k, part, sizes[k]));
                 return std::nullopt;
             }
             if (end == word.size()) return out;
             word.remove_prefix(end + 1);
         }
-        fail("mesh.syntax", "a corner of a face has at most three parts");
+        fail(message<"mesh.syntax/corner">());
     }
 
     /// Keeps the first problem of a face that is left out: the error where no face is left.
-    void note(const char* code, const std::string& message) {
-        if (problem_) return;
-        problem_.emplace();
-        problem_->code = code;
-        problem_->where = {file_, line_, 1};
-        problem_->message = message;
+    void note(Message problem) {
+        if (!problem_)
+            problem_ = diagnosticOf(Severity::error, std::move(problem), {file_, line_, 1});
     }
 
     void readFace(std::string_view line) {
@@ -245,7 +254,7 @@ class Reader {
             face_.push_back(*one);
         }
         if (face_.size() < 3) {
-            note("mesh.syntax", "a face needs at least three corners");
+            note(message<"mesh.syntax/face-corners">());
             ++mesh_.leftOut["faces of less than three corners"];
             return;
         }

@@ -12,8 +12,8 @@
 namespace farol::generator::io {
 namespace {
 
-/// What a vertex has, by the letters before "OFF" (Geomview's order of the numbers: place, normal,
-/// colour, texture coordinate).
+/// The parts of a vertex, by the letters before "OFF" (Geomview's order of the numbers: place,
+/// normal, colour, texture coordinate).
 struct OffHead {
     std::size_t length = 0;  ///< of the word, with blanks before it; 0: no word
     bool uvs = false, colors = false, normals = false, weights = false;
@@ -53,10 +53,10 @@ class OffReader {
     RawMesh read() {
         const Row& head = rows_.rows[0];
         if (head.count < 2 || !isCount(rows_.at(head)[0]) || !isCount(rows_.at(head)[1]))
-            rows_.refuse("mesh.count", head, "expected the numbers of vertices and of faces");
+            rows_.refuse(message<"mesh.count/off">(), head);
         const double vertices = rows_.at(head)[0], faces = rows_.at(head)[1];
         if (vertices + faces > static_cast<double>(rows_.rows.size() - 1))
-            rows_.refuse("mesh.truncated", head, "the file is shorter than its counts say");
+            rows_.refuse(message<"mesh.truncated/short">(), head);
         first_ = 1 + static_cast<std::size_t>(vertices);
         last_ = first_ + static_cast<std::size_t>(faces);
         for (std::size_t i = 1; i < first_; ++i) readVertex(rows_.rows[i]);
@@ -64,7 +64,7 @@ class OffReader {
         for (std::size_t i = first_; i < last_; ++i) readFace(rows_.rows[i]);
         if (mesh_.indices.empty()) {
             if (problem_) throw Error(Diagnostics{*problem_});
-            rows_.refuse("mesh.empty", head, "the OFF file holds no faces");
+            rows_.refuse(message<"mesh.empty/faces">("format"_arg = "OFF"), head);
         }
         if (head_.colors) takeVertexColors();
         if (anyFaceColor_) splitByColor(mesh_, faceColors_);
@@ -77,7 +77,9 @@ class OffReader {
         std::size_t need = 3 + (head_.weights ? 1 : 0) + (head_.normals ? 3 : 0) +
                            (head_.colors ? 3 : 0) + (head_.uvs ? 2 : 0);
         if (row.count < need)
-            rows_.refuse("mesh.syntax", row, "expected " + std::to_string(need) + " numbers");
+            rows_.refuse(
+                message<"mesh.syntax/off-numbers">("count"_arg = row.count, "needed"_arg = need),
+                row);
         glm::dvec3 place = placeAt(rows_, row, v);
         std::size_t at = 3;
         if (head_.weights) {
@@ -116,7 +118,7 @@ class OffReader {
             mesh_.colors.push_back(colorAt(rows_.at(rows_.rows[i]) + colorAt_, most_));
     }
 
-    void lose(const Error& error) {
+    void skipFace(const Error& error) {
         if (!problem_) problem_ = error.primary();
         ++mesh_.leftOut["faces with an index out of range"];
     }
@@ -124,7 +126,7 @@ class OffReader {
     void readFace(const Row& row) {
         const double* v = rows_.at(row);  // the number of corners, these, perhaps a colour
         if (!isCount(v[0]) || v[0] > row.count - 1.0)
-            rows_.refuse("mesh.syntax", row, "expected a number of corners from 3 on, and these");
+            rows_.refuse(message<"mesh.syntax/off-corners">(), row);
         const auto corners = static_cast<std::size_t>(v[0]);
         if (corners < 3) {
             ++mesh_.leftOut["faces of less than three corners"];
@@ -137,7 +139,7 @@ class OffReader {
             for (std::size_t k = 0; k < corners; ++k)
                 face_.push_back(indexIn(rows_, row, v[1 + k], mesh_.positions.size()));
         } catch (const Error& error) {
-            return lose(error);
+            return skipFace(error);
         }
         for (const std::uint32_t corner : face_) places_.push_back(mesh_.positions[corner]);
         triangulate(places_, triangles_);
@@ -200,7 +202,7 @@ RawMesh decodeBinaryOff(std::string_view bytes, const OffHead& head, const std::
             const double value = std::bit_cast<float>(word());
             if (k < 3) place[static_cast<int>(k)] = value;
             if (k < 3 && !(std::abs(value) <= kMaxCoordinate))
-                throw Error(message<"mesh.number/place">(), {fileName, 0, 0});
+                throw Error(message<"mesh.number/stored">(), {fileName, 0, 0});
         }
         mesh.positions.push_back(place);
     }
@@ -229,7 +231,8 @@ RawMesh decodeBinaryOff(std::string_view bytes, const OffHead& head, const std::
         for (const auto& [a, b, c] : triangles)
             mesh.indices.insert(mesh.indices.end(), {face[a], face[b], face[c]});
     }
-    if (mesh.indices.empty()) throw Error(message<"mesh.empty/off">(), {fileName, 0, 0});
+    if (mesh.indices.empty())
+        throw Error(message<"mesh.empty/faces">("format"_arg = "OFF"), {fileName, 0, 0});
     return mesh;
 }
 

@@ -4,6 +4,7 @@
 
 #include "generator/io/plain_text.h"
 #include "generator/io/rows.h"
+#include "generator/messages.h"
 
 namespace farol::generator::io {
 namespace {
@@ -18,19 +19,18 @@ const Row& rowOf(const NumberRows& rows, std::size_t index) {
 
 /// A count of lists of `width` numbers that follow it, at least one.
 std::size_t readCount(const NumberRows& rows, std::size_t at, std::size_t width,
-                      const std::string& what) {
+                      const Message& kind) {
     if (at >= rows.values.size())
-        rows.refuse("mesh.truncated", rows.rows.back(),
-                    "the file ends before the number of " + what);
+        rows.refuse(message<"mesh.truncated/patch">("kind"_arg = kind), rows.rows.back());
     const Row& row = rowOf(rows, at);
     const double value = rows.values[at];
     if (!isCount(value) || value < 1)
-        rows.refuse("mesh.count", row, "expected the number of " + what);
+        rows.refuse(message<"mesh.count/patch">("kind"_arg = kind), row);
     const std::size_t left = (rows.values.size() - at - 1) / width;
     if (value > static_cast<double>(left))
-        rows.refuse("mesh.truncated", row,
-                    "the file says " + std::to_string(static_cast<long long>(value)) + " " + what +
-                        " but only " + std::to_string(left) + " follow");
+        rows.refuse(message<"mesh.truncated/follow">("count"_arg = value, "kind"_arg = kind,
+                                                     "left"_arg = left),
+                    row);
     return static_cast<std::size_t>(value);
 }
 
@@ -57,17 +57,18 @@ PatchFile parsePatchFile(std::string_view bytes, const std::string& fileName) {
     const NumberRows rows = parseRows(plainText(bytes, storage), fileName);
     if (isBare(rows)) return readBare(rows);
     const std::vector<double>& values = rows.values;
-    const std::size_t patches = readCount(rows, 0, 16, "patches");
+    const std::size_t patches = readCount(rows, 0, 16, message<"part.patches">());
     const std::size_t after = 1 + 16 * patches;
     // The points' own count may be left out.
     const bool isCounted = (values.size() - after) % 3 == 1;
     const std::size_t first = after + (isCounted ? 1 : 0);
     const std::size_t left = (values.size() - first) / 3;
-    if (!isCounted && left == 0) readCount(rows, after, 3, "control points");
-    const std::size_t points = isCounted ? readCount(rows, after, 3, "control points") : left;
+    if (!isCounted && left == 0) readCount(rows, after, 3, message<"part.control-points">());
+    const std::size_t points =
+        isCounted ? readCount(rows, after, 3, message<"part.control-points">()) : left;
     if ((values.size() - first) != 3 * points)
-        rows.refuse("mesh.syntax", rowOf(rows, std::min(first + 3 * points, values.size() - 1)),
-                    "the file goes on after its " + std::to_string(points) + " control points");
+        rows.refuse(message<"mesh.syntax/patch-end">("count"_arg = points),
+                    rowOf(rows, std::min(first + 3 * points, values.size() - 1)));
     PatchFile out;
     const double base = indexBase(&values[1], &values[1] + 16 * patches, points);
     for (std::size_t i = 0; i < 16 * patches; ++i) {

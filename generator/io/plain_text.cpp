@@ -14,7 +14,7 @@ bool isLetter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') 
 
 enum class Token { word, whole, comma, other };
 
-/// What a token is; `other` is anything that speaks against decimal commas.
+/// Classifies a token; `other` rules out decimal commas.
 Token kindOf(std::string_view token) {
     if (isLetter(token[0])) return Token::word;
     std::size_t at = token[0] == '-' || token[0] == '+' ? 1 : 0;

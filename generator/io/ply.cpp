@@ -32,16 +32,16 @@ class Values {
     }
 
     /// Throws at the line of the value read last; a binary file has bytes instead.
-    [[noreturn]] void fail(const char* code, const std::string& message) const {
-        if (encoding_ == PlyEncoding::ascii) throw Error(code, message, {file_, line_, 0});
-        throw Error(code, message + " (byte " + std::to_string(size_ - rest_.size()) + ")",
-                    {file_, 0, 0});
+    [[noreturn]] void fail(Message message) const { throw Error(std::move(message), where()); }
+    Location where() const { return {file_, encoding_ == PlyEncoding::ascii ? line_ : 0, 0}; }
+    /// The place in a binary file, "812"; "" in a text, whose lines are counted.
+    std::string byte() const {
+        return encoding_ == PlyEncoding::ascii ? "" : std::to_string(size_ - rest_.size());
     }
 
     /// Throws at the element's line in the header.
-    [[noreturn]] void fail(const char* code, const PlyElement& element,
-                           const std::string& message) const {
-        throw Error(code, message, {file_, element.line, 1});
+    [[noreturn]] void fail(Message message, const PlyElement& element) const {
+        throw Error(std::move(message), {file_, element.line, 1});
     }
 
   private:
@@ -50,11 +50,11 @@ class Values {
         for (; at < rest_.size() && static_cast<unsigned char>(rest_[at]) <= ' '; ++at)
             line_ += rest_[at] == '\n' ? 1 : 0;
         rest_.remove_prefix(at);
-        if (rest_.empty()) fail("mesh.truncated", "the PLY file ends too early");
+        if (rest_.empty()) fail(message<"mesh.truncated/ply">("byte"_arg = byte()));
         std::size_t length = 0;
         while (length < rest_.size() && static_cast<unsigned char>(rest_[length]) > ' ') ++length;
         const std::optional<double> value = numberOf(rest_.substr(0, length), {file_, line_, 0});
-        if (!value) fail("mesh.syntax", "expected a number");
+        if (!value) fail(message<"mesh.syntax/ply-number">("value"_arg = rest_.substr(0, length)));
         rest_.remove_prefix(length);
         return *value;
     }
@@ -73,7 +73,7 @@ class Values {
     }
 
     double nextBinary(PlyType type) {
-        if (rest_.size() < plySize(type)) fail("mesh.truncated", "the PLY file ends too early");
+        if (rest_.size() < plySize(type)) fail(message<"mesh.truncated/ply">("byte"_arg = byte()));
         switch (type) {
             case PlyType::int8:
                 return static_cast<std::int8_t>(raw<std::uint8_t>());
@@ -92,7 +92,7 @@ class Values {
             case PlyType::float64:
                 return std::bit_cast<double>(raw<std::uint64_t>());
         }
-        fail("mesh.syntax", "unknown PLY type");
+        throw std::logic_error("a PLY type that typeOf does not return");
     }
 
     std::string_view rest_;
@@ -156,17 +156,18 @@ bool isCornerList(const PlyProperty& property) {
 
 /// A list's length, which must fit into a face or be skipped.
 std::size_t listLength(Values& values, const PlyProperty& property) {
-    constexpr double kLongest = 1e9;
+    constexpr double kMaxLength = 1e9;
     const double length = values.next(property.lengthType);
-    if (!isCount(length) || length > kLongest)
-        values.fail("mesh.count", "a list's length is no whole number in range");
+    if (!isCount(length) || length > kMaxLength)
+        values.fail(message<"mesh.count/list">("value"_arg = length, "most"_arg = kMaxLength,
+                                               "byte"_arg = values.byte()));
     return static_cast<std::size_t>(length);
 }
 
 void readVertices(Values& values, const PlyElement& element, RawMesh& mesh) {
     const Slots slots(element);
     if ((slots.have & kPlaceBits) != kPlaceBits)
-        values.fail("mesh.format", element, "the PLY vertices have no x, y and z");
+        values.fail(message<"mesh.format/places">(), element);
     const bool normals = (slots.have & kNormalBits) == kNormalBits;
     const bool uvs = (slots.have & kUvBits) == kUvBits;
     for (std::size_t i = 0; i < element.count; ++i) {
@@ -178,7 +179,8 @@ void readVertices(Values& values, const PlyElement& element, RawMesh& mesh) {
                 const double value = values.next(property.type);
                 if (slots.of[k] < 0) continue;
                 if (std::abs(value) > kMaxCoordinate || (slots.of[k] < 3 && std::isnan(value)))
-                    values.fail("mesh.number", "a number is not finite or beyond 1e18");
+                    values.fail(message<"mesh.number/ply">("value"_arg = value,
+                                                           "byte"_arg = values.byte()));
                 v[static_cast<std::size_t>(slots.of[k])] = value;
             }
         }
@@ -231,7 +233,8 @@ class FaceReader {
                     const double value = values_.next(property.type);
                     if (!isCornerList(property)) continue;
                     if (value == -1.0 || !isCorner(value)) {
-                        if (value != -1.0) lose("corners of strips out of range");
+                        if (value != -1.0)
+                            skipFace("corners of strips out of range", outOfRange(value));
                         run = 0;
                         continue;
                     }
@@ -265,9 +268,7 @@ class FaceReader {
         }
         const auto lists = std::count_if(properties.begin(), properties.end(), isCornerList);
         if (element.count > 0 && lists != 1)
-            values_.fail("mesh.format", element,
-                         "the PLY faces have " + std::to_string(lists) +
-                             " lists of corners; expected one, \"vertex_indices\"");
+            values_.fail(message<"mesh.format/corners">("count"_arg = lists), element);
         return properties;
     }
 
@@ -275,18 +276,16 @@ class FaceReader {
         return isCount(value) && value < static_cast<double>(mesh_.positions.size());
     }
 
-    /// Notes what is wrong at the number read last.
-    void lose(const char* what, const char* code = "mesh.index") {
-        ++mesh_.leftOut[what];
-        if (problem_) return;
-        try {
-            values_.fail(code, code == std::string_view("mesh.syntax")
-                                   ? "a face needs three corners"
-                                   : "a face's index is out of range: there are " +
-                                         std::to_string(mesh_.positions.size()) + " vertices");
-        } catch (const Error& error) {
-            problem_ = error.primary();
-        }
+    Message outOfRange(double index) const {
+        return message<"mesh.index/ply">("index"_arg = index, "count"_arg = mesh_.positions.size(),
+                                         "byte"_arg = values_.byte());
+    }
+
+    /// Counts a loss, and keeps the first problem at the number read last.
+    void skipFace(const char* kind, Message problem) {
+        ++mesh_.leftOut[kind];
+        if (!problem_)
+            problem_ = diagnosticOf(Severity::error, std::move(problem), values_.where());
     }
 
     /// Reads the corners of a face; false where it cannot be drawn.
@@ -299,13 +298,15 @@ class FaceReader {
             if (!inRange) continue;
             inRange = isCorner(value);
             if (!inRange) {
-                lose("faces with an index out of range");
+                skipFace("faces with an index out of range", outOfRange(value));
                 continue;
             }
             face_.push_back(static_cast<std::uint32_t>(value));
             if (k >= 2) checkTriangles(mesh_.triangles() + k - 1, file_);
         }
-        if (inRange && length < 3) lose("faces of less than three corners", "mesh.syntax");
+        if (inRange && length < 3)
+            skipFace("faces of less than three corners",
+                     message<"mesh.syntax/ply-face">("byte"_arg = values_.byte()));
         return inRange && length >= 3;
     }
 
@@ -424,12 +425,11 @@ RawMesh decodePly(std::string_view bytes, const std::string& fileName, bool face
                 mesh.leftOut["entries of \"" + shown(element.name) + "\""] += element.count;
         }
     }
-    if (mesh.positions.empty()) values.fail("mesh.empty", "the PLY file holds no vertices");
+    if (mesh.positions.empty()) values.fail(message<"mesh.empty/vertices">());
     if (!facesNeeded) return mesh;
     if (mesh.indices.empty() || isProfileWithDummy(mesh)) {
         faces.finish();
-        values.fail("mesh.empty",
-                    "the PLY file holds no faces: a profile is revolved with \"revolve\"");
+        values.fail(message<"mesh.empty/profile">());
     }
     faces.finish();
     return mesh;

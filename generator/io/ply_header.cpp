@@ -7,6 +7,7 @@
 #include "core/number.h"
 #include "core/text.h"
 #include "generator/mesh.h"
+#include "generator/messages.h"
 
 namespace farol::generator::io {
 namespace {
@@ -33,8 +34,7 @@ class HeaderReader {
         while (!ended) {
             const std::size_t end = bytes_.find('\n', at);
             ++header_.lines;
-            if (end == std::string_view::npos)
-                fail("mesh.truncated", "the PLY header has no end_header");
+            if (end == std::string_view::npos) fail(message<"mesh.truncated/ply-header">());
             const auto words = wordsOf(bytes_.substr(at, end - at));
             at = end + 1;
             if (words.empty() || words[0] == "comment" || words[0] == "obj_info") continue;
@@ -47,19 +47,19 @@ class HeaderReader {
             else if (words[0] == "property")
                 readProperty(words);
             else if (header_.lines > 1)
-                fail("mesh.syntax", "unknown line in the PLY header");
+                fail(message<"mesh.syntax/ply-line">("value"_arg = words[0]));
         }
         // Home-made files without a format line are text.
         if (!formatted && bytes_.find('\0') != std::string_view::npos)
-            fail("mesh.syntax", "the PLY header names no format");
+            fail(message<"mesh.syntax/ply-format">());
         header_.bytes = at;
         checkElementCounts();
         return header_;
     }
 
   private:
-    [[noreturn]] void fail(const char* code, const std::string& message) const {
-        throw Error(code, message, {file_, header_.lines, 1});
+    [[noreturn]] void fail(Message message) const {
+        throw Error(std::move(message), {file_, header_.lines, 1});
     }
 
     bool readFormat(const std::vector<std::string>& words) {
@@ -71,46 +71,45 @@ class HeaderReader {
         else if (kind == "binary_big_endian")
             header_.encoding = PlyEncoding::bigEndian;
         else
-            fail("mesh.syntax",
-                 "a PLY's format is ascii, binary_little_endian or binary_big_endian");
+            fail(message<"mesh.syntax/ply-encoding">("value"_arg = kind));
         return true;
     }
 
     void readElement(const std::vector<std::string>& words) {
         constexpr std::size_t kMaxElements = 32;
         const auto count = words.size() == 3 ? parseExact<std::uint64_t>(words[2]) : std::nullopt;
-        if (!count) fail("mesh.syntax", "expected: element NAME COUNT");
-        if (header_.elements.size() == kMaxElements) fail("mesh.count", "too many PLY elements");
-        refuseSecond(header_.elements, words[1], "element");
+        if (!count) fail(message<"mesh.syntax/ply-element">());
+        if (header_.elements.size() == kMaxElements)
+            fail(message<"mesh.count/elements">("most"_arg = kMaxElements));
+        if (hasName(header_.elements, words[1]))
+            fail(message<"mesh.syntax/ply-second-element">("name"_arg = words[1]));
         header_.elements.push_back({words[1], static_cast<std::size_t>(*count), {}, header_.lines});
     }
 
     void readProperty(const std::vector<std::string>& words) {
         constexpr std::size_t kMaxProperties = 64;
-        if (header_.elements.empty()) fail("mesh.syntax", "a PLY property before any element");
+        if (header_.elements.empty()) fail(message<"mesh.syntax/ply-order">());
         auto& properties = header_.elements.back().properties;
-        if (properties.size() == kMaxProperties) fail("mesh.count", "too many PLY properties");
+        if (properties.size() == kMaxProperties)
+            fail(message<"mesh.count/properties">("most"_arg = kMaxProperties));
         const bool list = words.size() == 5 && words[1] == "list";
-        if (!list && words.size() != 3)
-            fail("mesh.syntax", "expected: property TYPE NAME, or property list TYPE TYPE NAME");
+        if (!list && words.size() != 3) fail(message<"mesh.syntax/ply-property">());
         PlyProperty property;
         property.name = words.back();
-        refuseSecond(properties, property.name, "property");
+        if (hasName(properties, property.name))
+            fail(message<"mesh.syntax/ply-second-property">("name"_arg = property.name));
         property.list = list;
         property.type = typeOf(words[list ? 3 : 1]);
         if (list) property.lengthType = typeOf(words[2]);
         if (list && property.lengthType >= PlyType::float32)
-            fail("mesh.syntax", "a PLY list's length must be of a whole type");
+            fail(message<"mesh.syntax/ply-length">("value"_arg = words[2]));
         properties.push_back(property);
     }
 
     template <class Named>
-    void refuseSecond(const std::vector<Named>& list, const std::string& name,
-                      const char* kind) const {
-        const auto same = [&name](const Named& one) { return one.name == name; };
-        if (std::any_of(list.begin(), list.end(), same))
-            fail("mesh.syntax", "a second " + std::string(kind) + " " + farol::quoted(name) +
-                                    " in the PLY header; expected one of each name");
+    static bool hasName(const std::vector<Named>& list, const std::string& name) {
+        return std::any_of(list.begin(), list.end(),
+                           [&name](const Named& other) { return other.name == name; });
     }
 
     PlyType typeOf(const std::string& name) const {
@@ -124,7 +123,7 @@ class HeaderReader {
                                                                        {"double", "float64"}}};
         for (std::size_t i = 0; i < kNames.size(); ++i)
             if (name == kNames[i][0] || name == kNames[i][1]) return static_cast<PlyType>(i);
-        fail("mesh.syntax", "unknown PLY type");
+        fail(message<"mesh.syntax/ply-type">("value"_arg = name));
     }
 
     void checkElementCounts() const {
@@ -133,10 +132,11 @@ class HeaderReader {
             const std::size_t least = element.leastBytes(header_.encoding);
             // The last ascii line may lack its line feed.
             if (least > 0 && element.count > (left + 1) / least)
-                fail("mesh.count", "the PLY header says " + std::to_string(element.count) + " of " +
-                                       element.name.substr(0, 40) + ", more than the file holds");
+                fail(message<"mesh.count/held">("count"_arg = element.count,
+                                                "element"_arg = element.name));
             if (least == 0 && element.count > left)
-                fail("mesh.count", "the PLY header names an absurd count");
+                fail(message<"mesh.count/huge">("count"_arg = element.count,
+                                                "element"_arg = element.name, "most"_arg = left));
             if (element.name == "vertex") checkCounts(element.count, 0, file_);
         }
     }

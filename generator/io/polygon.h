@@ -12,7 +12,7 @@ using FaceTriangle = std::array<std::uint32_t, 3>;
 /// Makes `out` the triangles of a face, as numbers of its corners: always corners - 2, of the
 /// face's own winding. Where the fan from the first corner covers the face (all convex ones), it is
 /// that; else ears are clipped in the face's plane. Corners in one line, corners that repeat and
-/// faces that cross themselves are taken as well as they can be. Precondition: three corners or
+/// faces that cross themselves are triangulated as well as possible. Precondition: three corners or
 /// more.
 void triangulate(const std::vector<glm::vec3>& corners, std::vector<FaceTriangle>& out);
 

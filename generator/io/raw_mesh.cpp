@@ -96,14 +96,8 @@ std::uint8_t channelOf(double value, double most) {
     return static_cast<std::uint8_t>(std::lround(std::min(value / most, 1.0) * 255.0));
 }
 
-void warn(Diagnostics& findings, const char* code, const std::string& file,
-          const std::string& message) {
-    Diagnostic one;
-    one.severity = Severity::warning;
-    one.code = code;
-    one.where.file = file;
-    one.message = message;
-    findings.push_back(std::move(one));
+void warn(Diagnostics& findings, const std::string& file, Message message) {
+    findings.push_back(diagnosticOf(Severity::warning, std::move(message), {file, 0, 0}));
 }
 
 void splitByColor(RawMesh& raw, const std::vector<glm::u8vec4>& colors) {

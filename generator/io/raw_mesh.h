@@ -21,7 +21,7 @@ struct RawMesh {
     std::vector<MeshPart> parts;
     /// Vertices with the same number share a computed normal; empty: each has its own.
     std::vector<std::uint32_t> smooth;
-    std::map<std::string, std::size_t> leftOut;  ///< what of the file is not drawn, with counts
+    std::map<std::string, std::size_t> leftOut;  ///< kinds of data that are not drawn, with counts
     Diagnostics findings;
 
     std::size_t triangles() const { return indices.size() / 3; }
@@ -41,11 +41,10 @@ glm::dvec3 originOf(const std::vector<glm::dvec3>& positions);
 std::uint8_t channelOf(double value, double most);
 
 /// Adds a warning about the file as a whole.
-void warn(Diagnostics& findings, const char* code, const std::string& file,
-          const std::string& message);
+void warn(Diagnostics& findings, const std::string& file, Message message);
 
-/// Gives every triangle vertices of its own colour: `colors` has one a triangle. A vertex is kept
-/// once a colour, and copies share their computed normal.
+/// Splits vertices between triangles of different colours: `colors` has one a triangle. A vertex is
+/// kept once a colour, and copies share their computed normal.
 void splitByColor(RawMesh& raw, const std::vector<glm::u8vec4>& colors);
 
 }  // namespace farol::generator::io

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "generator/io/raw_mesh.h"
+#include "generator/messages.h"
 
 namespace farol::generator::io {
 namespace {
@@ -131,21 +132,18 @@ void repair(MeshArrays& mesh, const std::vector<std::uint32_t>& smooth, const st
                                 dvec3(mesh.normals[mesh.indices[i]]));
         if (outward < 0)
             for (glm::vec3& normal : mesh.normals) normal = -normal;
-        warn(findings, "mesh.inward", fileName,
-             "the closed mesh \"" + fileName + "\" faces inwards: it was turned");
+        warn(findings, fileName, message<"mesh.inward">("file"_arg = uncut(fileName)));
     }
     if (!hasArea(mesh))
-        warn(findings, "mesh.flat", fileName,
-             "no triangle of \"" + fileName + "\" has an area: nothing of it can be seen");
+        warn(findings, fileName, message<"mesh.flat">("file"_arg = uncut(fileName)));
     if (!given) {
         mesh.normals = vertexNormals(mesh.positions, mesh.indices, smooth);
         return;
     }
     const std::size_t replaced = replaceNormals(mesh, smooth);
     if (replaced > 0)
-        warn(findings, "mesh.normal", fileName,
-             std::to_string(replaced) + " normals of \"" + fileName +
-                 "\" have no direction; replaced by those of the faces");
+        warn(findings, fileName,
+             message<"mesh.normal">("count"_arg = replaced, "file"_arg = uncut(fileName)));
 }
 
 }  // namespace farol::generator::io

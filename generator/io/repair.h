@@ -10,8 +10,8 @@ namespace farol::generator::io {
 /// Makes a mesh read from a file fit to draw, with a warning for each kind of repair:
 /// missing normals are the normalised sum of the unit normals of the adjacent faces (one pass,
 /// faces without area skipped); zero or NaN normals are replaced by the same; normals of another
-/// length are normalised; a closed mesh whose volume is negative is turned to face outwards; of a
-/// mesh without any area it is told.
+/// length are normalised; a closed mesh whose volume is negative is turned to face outwards; a
+/// mesh without any area is only reported.
 /// `smooth`: RawMesh::smooth. Precondition: checkStructure; `smooth` is empty or as long as the
 /// positions, each number below that length.
 void repair(MeshArrays& mesh, const std::vector<std::uint32_t>& smooth, const std::string& fileName,

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/text.h"
+#include "generator/messages.h"
 
 namespace farol::generator::io {
 namespace {
@@ -53,15 +54,13 @@ std::optional<double> numberOf(std::string_view token, const Location& where) {
         value = small ? 0.0 : HUGE_VAL;
     }
     if (std::abs(value) > kMaxCoordinate)
-        throw Error("mesh.number", quoted(token) + " is too large; expected numbers within 1e18",
-                    where);
+        throw Error(message<"mesh.number/large">("value"_arg = token), where);
     return value;
 }
 
 glm::dvec3 placeAt(const NumberRows& rows, const Row& row, const double* v) {
     const glm::dvec3 place(v[0], v[1], v[2]);
-    if (std::isnan(v[0] + v[1] + v[2]))
-        rows.refuse("mesh.number", row, "a coordinate is NaN or infinite; expected a number");
+    if (std::isnan(v[0] + v[1] + v[2])) rows.refuse(message<"mesh.number/nan">(), row);
     return place;
 }
 
@@ -71,13 +70,14 @@ std::size_t tokenEnd(std::string_view text, std::size_t at) {
     // "nan(ind)" is one token.
     const bool nan = stop - at >= 3 && stop < text.size() && text[stop] == '(' &&
                      isNoNumber(text.substr(stop - 3, 3));
-    constexpr std::size_t kLongest = 6;  // "(snan)"
-    const std::size_t close = nan ? text.substr(stop, kLongest).find(')') : std::string_view::npos;
+    constexpr std::size_t kMaxSuffix = 6;  // "(snan)"
+    const std::size_t close =
+        nan ? text.substr(stop, kMaxSuffix).find(')') : std::string_view::npos;
     return close != std::string_view::npos ? stop + close + 1 : stop;
 }
 
-void NumberRows::refuse(const char* code, const Row& row, const std::string& message) const {
-    throw Error(code, message, {file, row.line, 1});
+void NumberRows::refuse(Message message, const Row& row) const {
+    throw Error(std::move(message), {file, row.line, 1});
 }
 
 NumberRows parseRows(std::string_view bytes, const std::string& file, int line, int column) {
@@ -105,7 +105,7 @@ NumberRows parseRows(std::string_view bytes, const std::string& file, int line, 
             const Location where{file, line, static_cast<int>(at) + column};
             const std::optional<double> value = numberOf(text.substr(at, stop - at), where);
             if (!value)
-                throw Error("mesh.syntax", quoted(text.substr(at, stop - at)) + " is not a number",
+                throw Error(message<"mesh.syntax/number">("value"_arg = text.substr(at, stop - at)),
                             where);
             out.values.push_back(*value);
             at = stop;
@@ -120,7 +120,7 @@ NumberRows parseRows(std::string_view bytes, const std::string& file, int line, 
         out.rows.push_back({line, first, count, block});
     }
     if (out.rows.empty())
-        throw Error("mesh.empty", "the mesh file holds no numbers", {file, firstLine, firstColumn});
+        throw Error(message<"mesh.empty/numbers">(), {file, firstLine, firstColumn});
     return out;
 }
 
@@ -133,12 +133,9 @@ double indexBase(const double* begin, const double* end, std::size_t size) {
 bool isCount(double value) { return value >= 0 && value == std::floor(value); }
 
 std::uint32_t indexIn(const NumberRows& rows, const Row& row, double value, std::size_t size) {
-    if (!isCount(value))
-        rows.refuse("mesh.index", row, "an index must be a whole number of at least 0");
+    if (!isCount(value)) rows.refuse(message<"mesh.index/word">("value"_arg = value), row);
     if (value >= static_cast<double>(size))
-        rows.refuse("mesh.index", row,
-                    "the index " + std::to_string(static_cast<long long>(value)) +
-                        " is out of range: there are " + std::to_string(size) + " vertices");
+        rows.refuse(message<"mesh.index/range">("index"_arg = value, "count"_arg = size), row);
     return static_cast<std::uint32_t>(value);
 }
 

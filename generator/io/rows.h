@@ -28,7 +28,7 @@ struct NumberRows {
     const double* at(const Row& row) const { return values.data() + row.first; }
     std::size_t blocks() const { return rows.empty() ? 0 : rows.back().block + 1; }
     /// Throws Error with the row's line.
-    [[noreturn]] void refuse(const char* code, const Row& row, const std::string& message) const;
+    [[noreturn]] void refuse(Message message, const Row& row) const;
 };
 
 /// Splits `bytes` into rows of numbers parted by blanks, commas, semicolons or brackets; `#` and
@@ -52,7 +52,7 @@ glm::dvec3 placeAt(const NumberRows& rows, const Row& row, const double* v);
 /// A number of the file as an index below `size`. Throws mesh.index with the row's line.
 std::uint32_t indexIn(const NumberRows& rows, const Row& row, double value, std::size_t size);
 
-/// What indices of these numbers count from: 1 where none is 0 and the largest is `size`, else 0.
+/// Returns the first index of these numbers: 1 where none is 0 and the largest is `size`, else 0.
 double indexBase(const double* begin, const double* end, std::size_t size);
 
 /// True for a whole number of at least 0.

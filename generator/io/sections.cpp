@@ -1,11 +1,12 @@
 #include <numeric>
 
 #include "generator/io/formats.h"
+#include "generator/messages.h"
 
 namespace farol::generator::io {
 namespace {
 
-/// A count on a row of its own and the rows that it counts.
+/// A count alone on its row and the rows that it counts.
 struct Section {
     std::size_t begin, end;  ///< rows, without the count's
     std::uint32_t width;     ///< numbers a row, the same in all
@@ -37,15 +38,15 @@ Sections sectionsOf(const NumberRows& rows) {
             out.normalRow = at;
             break;
         }
-        const double said = *rows.at(rows.rows[at]);
+        const double headCount = *rows.at(rows.rows[at]);
         const std::size_t left = total - at - 1;
-        if (rows.rows[at].count != 1 || !isCount(said) || left == 0) return {};
+        if (rows.rows[at].count != 1 || !isCount(headCount) || left == 0) return {};
         const std::uint32_t width = rows.rows[at + 1].count;
         // Indices may be counted one by one though three stand on a row.
         const bool three =
-            width == 3 && !out.all.empty() && said == 3.0 * static_cast<double>(left);
-        if (said < 1 || (!three && said > static_cast<double>(left))) return {};
-        const std::size_t count = three ? left : static_cast<std::size_t>(said);
+            width == 3 && !out.all.empty() && headCount == 3.0 * static_cast<double>(left);
+        if (headCount < 1 || (!three && headCount > static_cast<double>(left))) return {};
+        const std::size_t count = three ? left : static_cast<std::size_t>(headCount);
         out.all.push_back({at + 1, at + 1 + count, width});
         for (std::size_t i = out.all.back().begin; i < out.all.back().end; ++i)
             if (rows.rows[i].count != width) return {};
@@ -81,13 +82,13 @@ RawMesh decodeSections(const NumberRows& rows) {
         const Section& section = sections.all[s];
         const Row& first = rows.rows[section.begin];
         const bool indices = s + 1 == sections.all.size() && sections.hasIndices;
-        if (!indices && section.width == 1)
-            rows.refuse("mesh.format", first, "the indices are expected in the last section");
+        if (!indices && section.width == 1) rows.refuse(message<"mesh.format/section">(), first);
         if (s > 0 && !indices && section.end - section.begin != mesh.positions.size())
-            rows.refuse("mesh.truncated", first,
-                        "this section is not as long as that of the positions");
+            rows.refuse(message<"mesh.truncated/section">("count"_arg = section.end - section.begin,
+                                                          "positions"_arg = mesh.positions.size()),
+                        first);
         if (s > 0 && !indices && section.width != 2 && section.width != 3)
-            rows.refuse("mesh.syntax", first, "expected two or three numbers");
+            rows.refuse(message<"mesh.syntax/section">("count"_arg = section.width), first);
         for (std::size_t i = section.begin; i < section.end; ++i) {
             const Row& row = rows.rows[i];
             const double* v = rows.at(row);
@@ -107,12 +108,12 @@ RawMesh decodeSections(const NumberRows& rows) {
         std::iota(mesh.indices.begin(), mesh.indices.end(), 0U);
     }
     if (mesh.indices.size() % 3 != 0)
-        rows.refuse("mesh.truncated", rows.rows.back(),
-                    "the number of indices is not a multiple of three");
+        rows.refuse(message<"mesh.truncated/indices">("count"_arg = mesh.indices.size()),
+                    rows.rows.back());
     if (sections.normalRow > 0 && mesh.normals.empty())
         mesh.normals.assign(mesh.positions.size(), vec3At(rows.at(rows.rows[sections.normalRow])));
     if (mesh.normals.size() > mesh.positions.size() || mesh.uvs.size() > mesh.positions.size())
-        rows.refuse("mesh.format", rows.rows[0], "a section is given twice");
+        rows.refuse(message<"mesh.format/section-twice">(), rows.rows[0]);
     checkTriangles(mesh.indices.size() / 3, rows.file);
     return mesh;
 }

@@ -2,6 +2,7 @@
 #include <numeric>
 
 #include "generator/io/formats.h"
+#include "generator/messages.h"
 
 namespace farol::generator::io {
 namespace {
@@ -13,15 +14,14 @@ void appendThreeLines(const NumberRows& rows, std::size_t first, RawMesh& mesh) 
         const Row& row = rows.rows[i + first];
         const std::uint32_t width = i % 3 == 2 ? 2 : 3;
         if (row.count != width)
-            rows.refuse(
-                "mesh.syntax", row,
-                "expected " + std::to_string(width) + " numbers, not " + std::to_string(row.count));
+            rows.refuse(message<"mesh.syntax/width">("count"_arg = row.count, "width"_arg = width),
+                        row);
         if (i % 3 == 0) mesh.positions.push_back(placeAt(rows, row, rows.at(row)));
         if (i % 3 == 1) mesh.normals.push_back(vec3At(rows.at(row)));
         if (i % 3 == 2) mesh.uvs.push_back(vec2At(rows.at(row)));
     }
     if ((rows.rows.size() - first) % 3 != 0)
-        rows.refuse("mesh.truncated", rows.rows.back(), "the last vertex is incomplete");
+        rows.refuse(message<"mesh.truncated/three-lines">(), rows.rows.back());
 }
 
 void appendRow(const NumberRows& rows, const Row& row, RawMesh& mesh) {
@@ -55,9 +55,8 @@ const Row& rowAt(const NumberRows& rows, std::size_t index) {
 /// Every three vertices become a triangle.
 RawMesh indexed(RawMesh mesh, const NumberRows& rows) {
     if (mesh.positions.size() % 3 != 0)
-        rows.refuse("mesh.truncated", rows.rows.back(),
-                    "the number of vertices, " + std::to_string(mesh.positions.size()) +
-                        ", is not a multiple of three");
+        rows.refuse(message<"mesh.truncated/vertices">("count"_arg = mesh.positions.size()),
+                    rows.rows.back());
     checkTriangles(mesh.positions.size() / 3, rows.file);
     mesh.indices.resize(mesh.positions.size());
     std::iota(mesh.indices.begin(), mesh.indices.end(), 0U);
@@ -81,16 +80,13 @@ bool looksLikeStream(const NumberRows& rows) {
 
 RawMesh decodeStream(const NumberRows& rows) {
     const std::size_t numbers = rows.values.size() - 1;
-    const double said = rows.values[0];
-    const bool headed = numbers % 9 == 0 && (said == static_cast<double>(numbers) ||
-                                             3 * said == static_cast<double>(numbers) ||
-                                             9 * said == static_cast<double>(numbers));
+    const double headCount = rows.values[0];
+    const bool headed = numbers % 9 == 0 && (headCount == static_cast<double>(numbers) ||
+                                             3 * headCount == static_cast<double>(numbers) ||
+                                             9 * headCount == static_cast<double>(numbers));
     const std::size_t first = headed ? 1 : 0;
     if ((rows.values.size() - first) % 9 != 0)
-        rows.refuse("mesh.format", rows.rows[0],
-                    "no known mesh format has " + std::to_string(rows.values.size()) +
-                        " numbers in one row or column; of positions alone there are nine a "
-                        "triangle");
+        rows.refuse(message<"mesh.format/stream">("count"_arg = rows.values.size()), rows.rows[0]);
     RawMesh mesh;
     for (std::size_t i = first; i < rows.values.size(); i += 3)
         mesh.positions.push_back(placeAt(rows, rowAt(rows, i), &rows.values[i]));
@@ -104,14 +100,13 @@ RawMesh decodeSoup(const NumberRows& rows, std::size_t first) {
         appendThreeLines(rows, first, mesh);
     } else {
         if (width != 3 && width != 5 && width != 6 && width != 8 && width != 9 && width != 24)
-            rows.refuse("mesh.format", rows.rows[first],
-                        "no known mesh format has " + std::to_string(width) + " numbers a line");
+            rows.refuse(message<"mesh.format/width">("count"_arg = width), rows.rows[first]);
         for (std::size_t i = first; i < rows.rows.size(); ++i) {
             const Row& row = rows.rows[i];
             if (row.count != width)
-                rows.refuse("mesh.syntax", row,
-                            "expected " + std::to_string(width) + " numbers, not " +
-                                std::to_string(row.count));
+                rows.refuse(
+                    message<"mesh.syntax/width">("count"_arg = row.count, "width"_arg = width),
+                    row);
             appendRow(rows, row, mesh);
         }
     }

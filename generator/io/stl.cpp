@@ -51,8 +51,7 @@ std::size_t numbersEnd(std::string_view text) {
 /// Every three positions are a triangle. The facets' normals are not used: they are the faces'
 /// own where they are right, and repair.h computes those.
 RawMesh soup(RawMesh mesh, const std::string& fileName) {
-    if (mesh.positions.empty())
-        throw Error("mesh.empty", "the STL file holds no triangles", {fileName, 0, 0});
+    if (mesh.positions.empty()) throw Error(message<"mesh.empty/triangles">(), {fileName, 0, 0});
     checkTriangles(mesh.positions.size() / 3, fileName);
     mesh.indices.resize(mesh.positions.size());
     std::iota(mesh.indices.begin(), mesh.indices.end(), 0U);
@@ -80,8 +79,7 @@ RawMesh decodeBinaryStl(std::string_view bytes, const std::string& fileName) {
             const float value =
                 std::bit_cast<float>(wordAt(bytes, at + 4 * static_cast<std::size_t>(k)));
             if (!(std::abs(double{value}) <= kMaxCoordinate))
-                throw Error("mesh.number", "a coordinate is no finite number within 1e18",
-                            {fileName, 0, 0});
+                throw Error(message<"mesh.number/stored">(), {fileName, 0, 0});
             mesh.positions[i][k] = value;
         }
     }
@@ -118,13 +116,14 @@ RawMesh decodeStl(std::string_view bytes, const std::string& fileName) {
             const NumberRows rows = parseRows(text.substr(0, numbersEnd(text)), fileName, line,
                                               static_cast<int>(column) + 1);
             if (rows.values.size() != 3)
-                rows.refuse("mesh.syntax", rows.rows[0], "a vertex has three numbers");
+                rows.refuse(message<"mesh.syntax/stl-vertex">("count"_arg = rows.values.size()),
+                            rows.rows[0]);
             checkCounts(mesh.positions.size() + 1, 0, fileName);
             mesh.positions.push_back(placeAt(rows, rows.rows[0], rows.values.data()));
         }
     }
     if (mesh.positions.size() % 3 != 0)
-        throw Error("mesh.truncated", "the last facet is incomplete", {fileName, line, 1});
+        throw Error(message<"mesh.truncated/facet">(), {fileName, line, 1});
     return soup(std::move(mesh), fileName);
 }
 

@@ -15,9 +15,8 @@ std::vector<Vector> vectorsOf(const NumberRows& rows, std::size_t begin, std::si
     for (std::size_t i = begin; i < end; ++i) {
         const Row& row = rows.rows[i];
         if (row.count != N)
-            rows.refuse(
-                "mesh.syntax", row,
-                "expected " + std::to_string(N) + " numbers, not " + std::to_string(row.count));
+            rows.refuse(message<"mesh.syntax/width">("count"_arg = row.count, "width"_arg = N),
+                        row);
         Vector value;
         for (int k = 0; k < N; ++k)
             value[k] = static_cast<typename Vector::value_type>(rows.at(row)[k]);
@@ -44,19 +43,18 @@ std::vector<std::uint32_t> indicesOf(const NumberRows& rows, std::size_t begin, 
         for (std::uint32_t k = 0; k < rows.rows[i].count; ++k)
             out.push_back(indexIn(rows, rows.rows[i], rows.at(rows.rows[i])[k] - base, vertices));
     if (out.size() % 3 != 0)
-        rows.refuse("mesh.truncated", rows.rows[end - 1],
-                    "the number of indices, " + std::to_string(out.size()) +
-                        ", is not a multiple of three");
+        rows.refuse(message<"mesh.truncated/indices">("count"_arg = out.size()),
+                    rows.rows[end - 1]);
     checkTriangles(out.size() / 3, rows.file);
     return out;
 }
 
 void checkAsLong(const NumberRows& rows, std::size_t at, std::size_t got, std::size_t want,
-                 const std::string& what) {
+                 const Message& kind) {
     if (got != want)
-        rows.refuse("mesh.truncated", rows.rows[at],
-                    "there are " + std::to_string(got) + " " + what + " for " +
-                        std::to_string(want) + " positions");
+        rows.refuse(message<"mesh.truncated/unequal">("count"_arg = got, "kind"_arg = kind,
+                                                      "positions"_arg = want),
+                    rows.rows[at]);
 }
 
 /// True when a row of three could be a triangle: whole numbers, in range and all different.
@@ -86,33 +84,33 @@ bool isUniformSoup(const NumberRows& rows) {
 }
 
 /// A soup behind a count that may be none of the `right` ones: then the vertices are what counts.
-RawMesh countedLoosely(const NumberRows& rows, double said, const std::vector<double>& right) {
+RawMesh countedLoosely(const NumberRows& rows, double headCount, const std::vector<double>& right) {
     RawMesh mesh = decodeSoup(rows, 1);
-    if (std::find(right.begin(), right.end(), said) == right.end())
+    if (std::find(right.begin(), right.end(), headCount) == right.end())
         mesh.findings.push_back(
             diagnosticOf(Severity::warning,
-                         message<"mesh.count-wrong/soup">("count"_arg = said,
+                         message<"mesh.count-wrong/soup">("count"_arg = headCount,
                                                           "vertices"_arg = mesh.positions.size()),
                          {rows.file, rows.rows[0].line, 1}));
     return mesh;
 }
 
-/// What may be counted of a soup of three rows a vertex: vertices, triangles, numbers.
+/// Returns the possible counts of a soup of three rows a vertex: vertices, triangles, numbers.
 std::vector<double> countsOf(std::size_t rows) {
     const double vertices = static_cast<double>(rows) / 3.0;
     return {vertices, vertices / 3.0, vertices * 8.0};
 }
 
 /// Rows of one width after a count of them, of their triangles or of their numbers.
-bool isCountedSoup(const NumberRows& rows, double said) {
+bool isCountedSoup(const NumberRows& rows, double headCount) {
     const std::uint32_t width = rows.rows[1].count;
     const auto left = static_cast<double>(rows.rows.size() - 1);
     if (width < 3) return false;
     for (std::size_t i = 2; i < rows.rows.size(); ++i)
         if (rows.rows[i].count != width) return false;
-    const double perRow = width == 9 ? 3 : 1;                   // vertices
-    const bool vertices = said == perRow * left && width != 3;  // positions alone: see below
-    return vertices || 3 * said == perRow * left || said == width * left;
+    const double perRow = width == 9 ? 3 : 1;                        // vertices
+    const bool vertices = headCount == perRow * left && width != 3;  // positions alone: see below
+    return vertices || 3 * headCount == perRow * left || headCount == width * left;
 }
 
 }  // namespace
@@ -147,14 +145,13 @@ RawMesh decodeBlocks(const NumberRows& rows) {
         const Row& row = rows.rows[starts[b]];
         const std::size_t size = starts[b + 1] - starts[b];
         if (row.count == 3 && mesh.normals.empty() && mesh.uvs.empty()) {
-            checkAsLong(rows, starts[b], size, mesh.positions.size(), "normals");
+            checkAsLong(rows, starts[b], size, mesh.positions.size(), message<"part.normals">());
             mesh.normals = vectorsOf<3, glm::vec3>(rows, starts[b], starts[b + 1]);
         } else if (row.count == 2 && mesh.uvs.empty()) {
-            checkAsLong(rows, starts[b], size, mesh.positions.size(), "texture coordinates");
+            checkAsLong(rows, starts[b], size, mesh.positions.size(), message<"part.uvs">());
             mesh.uvs = vectorsOf<2, glm::dvec2>(rows, starts[b], starts[b + 1]);
         } else {
-            rows.refuse("mesh.format", row,
-                        "expected normals, texture coordinates or indices in this block");
+            rows.refuse(message<"mesh.format/block">("count"_arg = row.count), row);
         }
     }
     mesh.indices = indicesOf(rows, starts[last], starts[last + 1], mesh.positions.size());
@@ -173,20 +170,17 @@ RawMesh decodeCounted(const NumberRows& rows) {
         at = 2;
     }
     const std::size_t left = rows.rows.size() - at;
-    if (!isCount(countV) || !isCount(countI))
-        rows.refuse("mesh.count", head, "expected the numbers of vertices and of indices");
-    if (countV < 1 || countI < 1)
-        rows.refuse("mesh.empty", head, "the mesh file holds no triangles");
+    if (!isCount(countV) || !isCount(countI)) rows.refuse(message<"mesh.count/head">(), head);
+    if (countV < 1 || countI < 1) rows.refuse(message<"mesh.empty/triangles">(), head);
     if (countV > static_cast<double>(left) || countI > 3.0 * static_cast<double>(left))
-        rows.refuse("mesh.truncated", head,
-                    "the file is shorter than the counts in its first line say");
-    const auto n = static_cast<std::size_t>(countV), said = static_cast<std::size_t>(countI);
+        rows.refuse(message<"mesh.truncated/short">(), head);
+    const auto n = static_cast<std::size_t>(countV), headCount = static_cast<std::size_t>(countI);
     RawMesh mesh;
     mesh.positions = placesOf(rows, at, at + n);
     at += n;
     // How many rows the indices take: three a row (counted one by one, or as triangles), or one.
     const std::size_t rest = rows.rows.size() - at;
-    for (const std::size_t indexRows : {(said + 2) / 3, said}) {
+    for (const std::size_t indexRows : {(headCount + 2) / 3, headCount}) {
         if (rest < indexRows || (rest - indexRows) % n != 0) continue;
         const std::size_t extra = (rest - indexRows) / n;
         if (extra > 2) continue;
@@ -206,34 +200,31 @@ RawMesh decodeCounted(const NumberRows& rows) {
         mesh.indices = indicesOf(rows, indices, indices + indexRows, n);
         return mesh;
     }
-    rows.refuse("mesh.truncated", rows.rows.back(),
-                "the number of lines does not match the counts in the first line");
+    rows.refuse(message<"mesh.truncated/mismatch">(), rows.rows.back());
 }
 
 RawMesh decodeSingleCount(const NumberRows& rows) {
     const Row& head = rows.rows[0];
-    const double said = *rows.at(head);
+    const double headCount = *rows.at(head);
     const std::size_t left = rows.rows.size() - 1;
-    if (!isCount(said) || said < 1)
-        rows.refuse("mesh.count", head, "expected a number of vertices or of indices");
-    if (isCountedSoup(rows, said)) return decodeSoup(rows, 1);
+    if (!isCount(headCount) || headCount < 1) rows.refuse(message<"mesh.count/single">(), head);
+    if (isCountedSoup(rows, headCount)) return decodeSoup(rows, 1);
     if (looksLikeThreeLines(rows, 1) && left % 9 == 0)
-        return countedLoosely(rows, said, countsOf(left));
-    if (isUniformSoup(rows) && said != static_cast<double>(left) &&
-        2.0 * said != static_cast<double>(left))
-        return countedLoosely(rows, said, {});
-    if (said > static_cast<double>(left))
-        rows.refuse("mesh.truncated", head,
-                    "the file says " + std::to_string(static_cast<long long>(said)) +
-                        " lines but only " + std::to_string(left) + " follow");
-    const auto n = static_cast<std::size_t>(said);
+        return countedLoosely(rows, headCount, countsOf(left));
+    if (isUniformSoup(rows) && headCount != static_cast<double>(left) &&
+        2.0 * headCount != static_cast<double>(left))
+        return countedLoosely(rows, headCount, {});
+    if (headCount > static_cast<double>(left))
+        rows.refuse(message<"mesh.truncated/held">("count"_arg = headCount, "lines"_arg = left),
+                    head);
+    const auto n = static_cast<std::size_t>(headCount);
     RawMesh mesh;
     if (rows.rows[1].count == 1) {  // indices, then x y z nx ny nz u v
         const std::size_t begin = 1 + n;
         for (std::size_t i = begin; i < rows.rows.size(); ++i) {
             const Row& row = rows.rows[i];
             if (row.count != 8)
-                rows.refuse("mesh.syntax", row, "expected 8 numbers: x y z nx ny nz u v");
+                rows.refuse(message<"mesh.syntax/vertex">("count"_arg = row.count), row);
             const double* v = rows.at(row);
             mesh.positions.push_back(placeAt(rows, row, v));
             mesh.normals.emplace_back(v[3], v[4], v[5]);
@@ -244,11 +235,9 @@ RawMesh decodeSingleCount(const NumberRows& rows) {
     }
     const bool uvs = left == 3 * n && rows.rows.back().count == 2;
     if (left != n && left != 2 * n && !uvs)
-        rows.refuse("mesh.truncated", rows.rows.back(),
-                    "the file says " + std::to_string(n) + " vertices but holds " +
-                        std::to_string(left) + " lines");
-    if (n % 3 != 0)
-        rows.refuse("mesh.truncated", head, "the number of vertices is not a multiple of three");
+        rows.refuse(message<"mesh.truncated/held">("count"_arg = n, "lines"_arg = left),
+                    rows.rows.back());
+    if (n % 3 != 0) rows.refuse(message<"mesh.truncated/vertices">("count"_arg = n), head);
     checkTriangles(n / 3, rows.file);
     mesh.positions = placesOf(rows, 1, 1 + n);
     if (left > n) mesh.normals = vectorsOf<3, glm::vec3>(rows, 1 + n, 1 + 2 * n);

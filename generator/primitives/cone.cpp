@@ -28,7 +28,7 @@ ShapeEntry coneEntry() {
                     // its shading.
                     return std::vector<double>{
                         circleDivisions(call.length(0), fineness.error, fineness),
-                        ladder(fineness.straightSide)};
+                        roundUpToStep(fineness.straightSide)};
                 },
             .surface =
                 [](const ShapeCall& call, scene::UvLayout uv) {

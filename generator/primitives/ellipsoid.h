@@ -4,7 +4,7 @@
 
 namespace farol::generator::primitives {
 
-/// The sphere's mesh (sphere.h) with a half axis of its own along each of X, Y and Z.
+/// The sphere's mesh (sphere.h) with a separate half axis along each of X, Y and Z.
 ShapeEntry ellipsoidEntry();
 
 }  // namespace farol::generator::primitives

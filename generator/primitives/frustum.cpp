@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "generator/builder.h"
+#include "generator/messages.h"
 
 namespace farol::generator::primitives {
 namespace {
@@ -152,44 +153,42 @@ ShapeEntry frustumEntry() {
     Argument bottom = lengthArgument("BOTTOM", "radius of the base; 0 is an apex");
     Argument top = lengthArgument("TOP", "radius of the top; 0 is an apex", 0.5);
     bottom.min = top.min = 0;
-    return {
-        .name = "frustum",
-        .aliases = {"tronco"},
-        .summary = "the frustum of a cone, base in XZ, top at y = HEIGHT",
-        .arguments = {bottom, top, lengthArgument("HEIGHT", "height"),
-                      levelArgument("SLICES", 3, kDefaultSlices, "divisions about Y"),
-                      levelArgument("STACKS", 1, 8, "divisions of the side along its height")},
-        .required = 3,
-        .generate =
-            [](const ShapeCall& call, const std::string&, UvLayout uv) {
-                return frustum(call.length(0), call.length(1), call.length(2), call.count(3),
-                               call.count(4), uv, FrustumAtlas::cylinder);
+    return {.name = "frustum",
+            .aliases = {"tronco"},
+            .summary = "the frustum of a cone, base in XZ, top at y = HEIGHT",
+            .arguments = {bottom, top, lengthArgument("HEIGHT", "height"),
+                          levelArgument("SLICES", 3, kDefaultSlices, "divisions about Y"),
+                          levelArgument("STACKS", 1, 8, "divisions of the side along its height")},
+            .required = 3,
+            .generate =
+                [](const ShapeCall& call, const std::string&, UvLayout uv) {
+                    return frustum(call.length(0), call.length(1), call.length(2), call.count(3),
+                                   call.count(4), uv, FrustumAtlas::cylinder);
+                },
+            .count =
+                [](const ShapeCall& call, const std::string&) {
+                    return frustumTriangles(call.length(0), call.length(1), call.count(3),
+                                            call.count(4));
+                },
+            .check = [](const ShapeCall& call) -> Message {
+                const double low = call.length(0), high = call.length(1);
+                if (low == 0 && high == 0) return message<"part.frustum-zero">();
+                for (const double radius : {low, high})
+                    if (radius > 0 && radius < kMinLength)
+                        return message<"part.frustum-small">("bottom"_arg = low, "top"_arg = high);
+                return {};
             },
-        .count =
-            [](const ShapeCall& call, const std::string&) {
-                return frustumTriangles(call.length(0), call.length(1), call.count(3),
-                                        call.count(4));
-            },
-        .check = [](const ShapeCall& call) -> std::string {
-            const double low = call.length(0), high = call.length(1);
-            if (low == 0 && high == 0)
-                return "one of the arguments BOTTOM and TOP of frustum must be over 0";
-            for (const double radius : {low, high})
-                if (radius > 0 && radius < kMinLength)
-                    return "the arguments BOTTOM and TOP of frustum must be 0 or at least 1e-06";
-            return "";
-        },
-        .bound =
-            [](const ShapeCall& call, const std::string&, const Fineness& fineness) {
-                const double radius = std::max(call.length(0), call.length(1));
-                return std::vector<double>{circleDivisions(radius, fineness.error, fineness),
-                                           ladder(std::max(1.0, fineness.straightSide))};
-            },
-        .surface =
-            [](const ShapeCall& call, UvLayout uv) {
-                return frustumSurface(call.length(0), call.length(1), call.length(2), uv,
-                                      FrustumAtlas::cylinder);
-            }};
+            .bound =
+                [](const ShapeCall& call, const std::string&, const Fineness& fineness) {
+                    const double radius = std::max(call.length(0), call.length(1));
+                    return std::vector<double>{circleDivisions(radius, fineness.error, fineness),
+                                               roundUpToStep(std::max(1.0, fineness.straightSide))};
+                },
+            .surface =
+                [](const ShapeCall& call, UvLayout uv) {
+                    return frustumSurface(call.length(0), call.length(1), call.length(2), uv,
+                                          FrustumAtlas::cylinder);
+                }};
 }
 
 }  // namespace farol::generator::primitives

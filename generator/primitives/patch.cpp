@@ -48,7 +48,7 @@ double patchDivisions(const io::PatchFile& file, const Fineness& fineness) {
     if (!(worst > 0.0)) return 1.0;  // all flat
     // A patch of such models spans a quarter of a turn.
     const double divisions = std::ceil(std::sqrt(worst / (8.0 * fineness.error)));
-    return ladder(std::clamp(divisions, fineness.fullTurn / 4.0, kMostDivisions / 4.0));
+    return roundUpToStep(std::clamp(divisions, fineness.fullTurn / 4.0, kMaxDivisions / 4.0));
 }
 
 }  // namespace

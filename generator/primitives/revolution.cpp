@@ -5,6 +5,7 @@
 #include "generator/builder.h"
 #include "generator/io/mesh_file.h"
 #include "generator/io/raw_mesh.h"
+#include "generator/messages.h"
 
 namespace farol::generator::primitives {
 namespace {
@@ -56,9 +57,7 @@ Outline flatten(const std::vector<glm::dvec3>& profile, const std::string& file)
     }
     // Rounding in the file may leave a point of the axis just beside it.
     const double onAxis = 1e-6 * size;
-    if (low < -onAxis && high > onAxis)
-        throw Error("mesh.profile", "the profile lies on both sides of the axis of revolution",
-                    {file, 0, 0});
+    if (low < -onAxis && high > onAxis) throw Error(message<"mesh.profile/axis">(), {file, 0, 0});
     std::vector<dvec2> points;
     for (const glm::dvec3& p : profile)
         points.emplace_back(std::abs(p.x) <= onAxis ? 0.0 : std::abs(p.x), p.y);
@@ -87,8 +86,7 @@ std::vector<Strip> stripsOf(const Outline& outline, const std::string& file) {
         strips.back().t.push_back(outline.reversed ? 1 - t : t);
     }
     std::erase_if(strips, [](const Strip& strip) { return strip.points.size() < 2; });
-    if (strips.empty())
-        throw Error("mesh.profile", "a profile needs at least two different points", {file, 0, 0});
+    if (strips.empty()) throw Error(message<"mesh.profile/points">(), {file, 0, 0});
     for (Strip& strip : strips) smooth(strip);
     return strips;
 }

@@ -1,6 +1,7 @@
 #include "generator/primitives/ring.h"
 
 #include "generator/builder.h"
+#include "generator/messages.h"
 
 namespace farol::generator::primitives {
 namespace {
@@ -68,16 +69,16 @@ ShapeEntry ringEntry() {
         .count = [](const ShapeCall& call,
                     const std::string&) { return call.count(2) * (call.length(0) > 0 ? 4U : 2U); },
         .isExchanged = [](const ShapeCall& call) { return call.length(0) > call.length(1); },
-        .check = [](const ShapeCall& call) -> std::string {
+        .check = [](const ShapeCall& call) -> Message {
             // A narrower ring folds in floats.
-            constexpr double kNarrowest = 1e-4;
+            constexpr double kMinWidth = 1e-4;
             const double hole = call.length(0), outer = call.length(1);
-            if (hole >= outer) return "the argument INNER of ring must be less than OUTER";
-            if (outer - hole < kNarrowest * outer)
-                return "the arguments INNER and OUTER of ring must differ by 0.0001 of OUTER";
+            if (hole >= outer)
+                return message<"part.ring-order">("inner"_arg = hole, "outer"_arg = outer);
+            if (outer - hole < kMinWidth * outer) return message<"part.ring-narrow">();
             if (hole > 0 && hole < kMinLength)
-                return "the argument INNER of ring must be 0 or at least 1e-06";
-            return "";
+                return message<"part.ring-small">("inner"_arg = hole);
+            return {};
         },
         .bound =
             [](const ShapeCall& call, const std::string&, const Fineness& fineness) {

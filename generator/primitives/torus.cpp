@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "generator/builder.h"
+#include "generator/messages.h"
 
 namespace farol::generator::primitives {
 namespace {
@@ -81,14 +82,15 @@ ShapeEntry torusEntry() {
                     const std::string&) { return 2 * call.count(2) * call.count(3); },
         // GLUT's order: the tube first.
         .isExchanged = [](const ShapeCall& call) { return call.length(1) > call.length(0); },
-        .check = [](const ShapeCall& call) -> std::string {
+        .check = [](const ShapeCall& call) -> Message {
             // Thinner tubes fold in floats: a float holds 1e-7 of the ring's radius.
-            constexpr double kThinnest = 1e-4;
+            constexpr double kMinTube = 1e-4;
             const double ring = call.length(0), tube = call.length(1);
-            if (tube >= ring) return "the argument TUBE of torus must be less than RING";
-            if (tube < kThinnest * ring)
-                return "the argument TUBE of torus must be at least 0.0001 of RING";
-            return "";
+            if (tube >= ring)
+                return message<"part.torus-tube">("tube"_arg = tube, "ring"_arg = ring);
+            if (tube < kMinTube * ring)
+                return message<"part.torus-thin">("tube"_arg = tube, "ring"_arg = ring);
+            return {};
         },
         .bound =
             [](const ShapeCall& call, const std::string&, const Fineness& fineness) {

@@ -78,7 +78,7 @@ Symmetry symmetryOf(const Outline::Item& item) {
     double turn = 0.0;
     for (std::size_t i = 0; i < call.arguments.size() && turn == 0.0; ++i)
         if (call.entry->arguments[i].isLevel()) turn = call.arguments[i].value;
-    if (turn < kRound && !generator::isOpen(item.model)) return Symmetry::none;
+    if (turn < kRound && !generator::isAdaptive(item.model)) return Symmetry::none;
     if (call.entry->name == "sphere") return Symmetry::ball;
     const bool isRound = call.entry->name == "cone" || call.entry->name == "cylinder" ||
                          call.entry->name == "torus" || call.entry->name == "ring" ||

@@ -62,7 +62,7 @@ GlFacts askFacts(const Api& api) {
     facts.renderer = stringOf(api, GL_RENDERER);
     facts.version = stringOf(api, GL_VERSION);
     const int most = integerOf(api, GL_MAX_SAMPLES);
-    constexpr std::array<int, 4> kCounts{2, 4, 8, 16};  // what images may ask for
+    constexpr std::array<int, 4> kCounts{2, 4, 8, 16};  // of images
     for (const int count : kCounts) {
         if (count > most) break;
         SamplePattern pattern = patternOf(api, count);

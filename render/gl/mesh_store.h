@@ -8,7 +8,7 @@
 
 namespace farol::render::gl {
 
-/// A mesh in GL memory. flat: three vertices of its own a triangle, with the face's normal and
+/// A mesh in GL memory. flat: three separate vertices for each triangle, with the face's normal and
 /// middle (attribute 3), drawn without indices.
 struct GpuMesh {
     VertexArray array;

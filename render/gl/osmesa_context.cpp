@@ -10,10 +10,10 @@
 namespace farol::render::gl {
 namespace {
 
-/// llvmpipe filters 8-bit textures in 8-bit arithmetic unless told otherwise: 0.41 to 0.53 levels
-/// rms against the exact filter instead of 0.32 to 0.40, for 6 to 12 % of a textured frame
-/// (measured; docs/benchmarks/accuracy.md). It reads the variable once, when the first context is
-/// made; what the environment says already stays.
+/// llvmpipe filters 8-bit textures in 8-bit arithmetic unless a variable says otherwise: 0.41 to
+/// 0.53 levels rms against the exact filter instead of 0.32 to 0.40, for 6 to 12 % of a textured
+/// frame (measured; docs/benchmarks/accuracy.md). It reads the variable once, when the first
+/// context is made; what the environment says already stays.
 void chooseExactFilters() {
     static std::once_flag once;
     std::call_once(once, [] { setenv("GALLIVM_PERF", "no_aos_sampling", 0); });

@@ -19,14 +19,14 @@ namespace {
 
 constexpr std::size_t kMeshBytes = std::size_t{256} << 20;
 constexpr std::size_t kTextureBytes = std::size_t{384} << 20;
-constexpr std::size_t kMostAhead = 32;  // programs with textures of one kind each
+constexpr std::size_t kMaxAhead = 32;  // programs with textures of one kind each
 
 double sinceMs(std::chrono::steady_clock::time_point begin) {
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin)
         .count();
 }
 
-/// Alpha was blended towards a transparent black: divides it out again.
+/// Divides colours by alpha: blending over transparent black has multiplied them by it.
 void unpremultiply(image::Image& image) {
     for (std::size_t i = 0; i < image.pixels.size(); i += 4) {
         const unsigned alpha = image.pixels[i + 3];
@@ -48,13 +48,14 @@ void setSurface(const Api& api, const DrawItem& item, const LinkedProgram& progr
     api.Uniform4fv(program.surfaceUv, 1, glm::value_ptr(uv));
     const glm::vec4 discs(surface.discs);
     api.Uniform4fv(program.surfaceDiscs, 1, glm::value_ptr(discs));
-    // A polar layout (uv.y < 0) has no middle to grow from.
+    // A polar layout (uv.y < 0) is not scaled about its centre.
     api.Uniform1f(program.balance, uv.y > 0.0F ? item.unitFromObject.x * lengths.x : 1.0F);
     api.Uniform1f(program.seenFrom, item.inside ? -1.0F : 1.0F);
 }
 
-/// `image` of the plan's size becomes sum / whole, rounded.
-void takeMean(const std::vector<std::uint32_t>& sum, std::uint32_t whole, image::Image& image) {
+/// Sets `image`, of the plan's size, to sum / whole, rounded.
+void resolveSamples(const std::vector<std::uint32_t>& sum, std::uint32_t whole,
+                    image::Image& image) {
     image.pixels.resize(sum.size());
     for (std::size_t i = 0; i < sum.size(); ++i)
         image.pixels[i] = static_cast<std::uint8_t>((sum[i] + whole / 2) / whole);
@@ -73,7 +74,7 @@ GLenum modeOf(Polygons polygons) {
                                             : GL_FILL;
 }
 
-/// The painter's objects are made in it.
+/// Makes the context current: the painter's objects are created in it.
 std::unique_ptr<Context> madeCurrent(std::unique_ptr<Context> context) {
     context->makeCurrent();
     return context;
@@ -119,7 +120,7 @@ struct Painter::State {
         restoreState();
     }
 
-    /// What a plan changes while it is drawn, as every plan expects it: one that failed may have
+    /// Restores the GL state that plans change and expect to find: a plan that failed may have
     /// left it changed.
     void restoreState() {
         clearErrors(api);
@@ -169,20 +170,20 @@ void Painter::State::prepareTextures(const FramePlan& plan, const OpenTexture& o
     const auto indexOf = [&](const TextureRef& ref) {
         return static_cast<std::size_t>(&ref - plan.textures.data());
     };
-    const auto expect = [&](const TextureRef& ref, const UndecodedTexture& coming) {
+    const auto onReserved = [&](const TextureRef& ref, const UndecodedTexture& coming) {
         if (ref.cube || coming.width == 0) return;
         const std::size_t i = indexOf(ref);
         reserved[i] = textures.reserve(ref, coming.width, coming.height);
         textureNames[i] = reserved[i].texture.name();
     };
-    const auto take = [&](const TextureRef& ref, const TextureLevels& levels) {
+    const auto onDecoded = [&](const TextureRef& ref, const TextureLevels& levels) {
         const std::size_t i = indexOf(ref);
         const TextureStore::Entry& entry =
             textures.put(ref, std::move(reserved[i]), levels, plan.textures.size());
         textureNames[i] = entry.texture.name();
         textureNotes[i] = entry.notes;
     };
-    loadTextures(missing, open, {expect, [&] { compileAhead(plan); }, take}, facts);
+    loadTextures(missing, open, {onReserved, [&] { compileAhead(plan); }, onDecoded}, facts);
 }
 
 /// Makes the GL compile its code for this frame, by draws of which no pixel is let through: the
@@ -194,7 +195,7 @@ void Painter::State::compileAhead(const FramePlan& plan) {
     for (const Pass& pass : plan.passes) {
         begin(plan, pass);
         for (const Batch& batch : plan.batches.batches) {
-            if (done.size() >= kMostAhead) break;
+            if (done.size() >= kMaxAhead) break;
             const DrawItem& first = plan.items[plan.batches.order[batch.first]];
             const GLuint texture =
                 first.texture < 0 ? 0 : textureNames[static_cast<std::size_t>(first.texture)];
@@ -458,7 +459,7 @@ void Painter::draw(const FramePlan& plan, const OpenTexture& open, image::Image&
     if (parts > 0) {
         image.width = plan.view.size.x;
         image.height = plan.view.size.y;
-        takeMean(sum, 257U * parts, image);
+        resolveSamples(sum, 257U * parts, image);
     }
     throwOnError(s.api, "drawing");
     if (transparent) unpremultiply(image);

@@ -8,7 +8,7 @@
 
 namespace farol::render::gl {
 
-/// What a frame is drawn into: RGBA and 32-bit float depth, with samples, and where there are
+/// The framebuffer of a frame: RGBA and 32-bit float depth, with samples, and where there are
 /// samples the picture they are resolved into. (OSMesa's own depth buffer has 24 bits at most.)
 class Target {
   public:

@@ -51,7 +51,7 @@ const TextureStore::Entry& TextureStore::put(const TextureRef& ref, Reserved res
         uploadFaces(reserved.texture, levels);
     } else {
         const image::Image& base = levels.images.front();
-        // A file's head may have told another size than its pixels have.
+        // A file's head may give another size than its pixels have.
         if (!reserved.texture || base.width != reserved.width || base.height != reserved.height)
             reserved = reserve(ref, base.width, base.height);
         api_.BindTexture(GL_TEXTURE_2D, reserved.texture.name());

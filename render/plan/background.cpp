@@ -4,6 +4,8 @@
 #include <charconv>
 #include <optional>
 
+#include "render/plan/messages.h"
+
 namespace farol::render {
 namespace {
 
@@ -79,11 +81,7 @@ Background chooseBackground(const scene::Scene& scene, const PictureOptions& opt
         Diagnostics ignored;  // where the picture was found is no news to who named it just now
         const auto path = scene::locate(assets, text, {}, ignored, scene.document);
         if (!path)
-            throw Error("option.range",
-                        "background=" + text.substr(0, 80) +
-                            " is neither #rrggbb, r,g,b (0..255), a basic colour's name, "
-                            "transparent, nor a picture of this scene",
-                        {}, "background");
+            throw Error(message<"option.range/background">("value"_arg = text), {}, "background");
         chosen.path = *path;
     }
     return chosen;

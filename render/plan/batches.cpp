@@ -50,7 +50,7 @@ class Arranger {
         const std::size_t count = items_.size();
         batchOf_.resize(count);
         extents_.resize(count);
-        const bool apart = !merge_ || count < kLeastInstances;
+        const bool apart = !merge_ || count < kMinInstances;
         for (std::uint32_t i = 0; i < count; ++i) {
             const std::size_t like = apart ? members_.size() : findLike(i);
             if (like == members_.size()) members_.emplace_back();
@@ -63,7 +63,7 @@ class Arranger {
             Batch batch;
             batch.first = all.order.size();
             batch.count = members.size();
-            batch.instanced = members.size() >= kLeastInstances;
+            batch.instanced = members.size() >= kMinInstances;
             all.batches.push_back(batch);
             all.order.insert(all.order.end(), members.begin(), members.end());
         }
@@ -73,8 +73,8 @@ class Arranger {
   private:
     static constexpr int kTiles = 32;  ///< a side of the picture
     static constexpr std::size_t kBatchesBack = 24;
-    static constexpr int kMostTiles = 64;   ///< of one model; larger ones let nothing past
-    static constexpr int kMostLooks = 256;  ///< at models in the same tiles
+    static constexpr int kMaxTiles = 64;   ///< of one model; larger ones let nothing past
+    static constexpr int kMaxLooks = 256;  ///< at models in the same tiles
 
     /// The batch that the item joins, or the number of batches.
     std::size_t findLike(std::uint32_t item) {
@@ -120,7 +120,7 @@ class Arranger {
         extent.nearest = middle - reach - margin;
         extent.farthest = middle + reach + margin;
         const glm::ivec4 span = tilesOf(extent.rect);
-        return (span.z - span.x + 1) * (span.w - span.y + 1) <= kMostTiles;
+        return (span.z - span.x + 1) * (span.w - span.y + 1) <= kMaxTiles;
     }
 
     /// First and last column and row.
@@ -147,7 +147,7 @@ class Arranger {
         int looks = 0;
         forTiles(extents_[item].rect, [&](const std::vector<std::uint32_t>& tile) {
             for (const std::uint32_t other : tile) {
-                met = ++looks > kMostLooks ||
+                met = ++looks > kMaxLooks ||
                       (batchOf_[other] > like && extents_[other].meets(extents_[item]));
                 if (met) return false;
             }

@@ -7,8 +7,8 @@
 
 namespace farol::render {
 
-/// From this many on a batch is one call: fewer do not pay for a shader of their own.
-inline constexpr std::size_t kLeastInstances = 8;
+/// The smallest batch that is one instanced call: fewer do not pay for its shader.
+inline constexpr std::size_t kMinInstances = 8;
 
 /// Orders all items. Where two surfaces lie in one place the first of the document wins: a model
 /// moves up to its likes only past models that it cannot meet, since no pixel is theirs in common

@@ -6,7 +6,7 @@ namespace farol::render {
 namespace {
 
 constexpr std::uint32_t kLeaf = 8;
-constexpr int kDeepest = 48;  // halving 2^32 boxes takes 32
+constexpr int kMaxDepth = 48;  // halving 2^32 boxes takes 32
 
 }  // namespace
 
@@ -27,7 +27,7 @@ std::uint32_t BoundsTree::build(std::uint32_t begin, std::uint32_t end, int dept
         centers.add(center(order_[i]));
     }
     nodes_[self].bounds = bounds;
-    if (end - begin <= kLeaf || depth >= kDeepest) return self;
+    if (end - begin <= kLeaf || depth >= kMaxDepth) return self;
     const glm::dvec3 size = centers.max - centers.min;
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
     const std::uint32_t middle = begin + (end - begin) / 2;

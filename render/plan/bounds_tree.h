@@ -8,8 +8,8 @@
 
 namespace farol::render {
 
-/// Boxes in a binary tree by place, so that what is outside a view or wholly within it is told
-/// for whole groups at once.
+/// Boxes in a binary tree by place, so that whole groups outside a view or within it are found
+/// with one test.
 class BoundsTree {
   public:
     BoundsTree() = default;
@@ -19,7 +19,7 @@ class BoundsTree {
     struct Found {
         /// A Frustum::Side for every box: outside where its group or it itself is.
         std::vector<Frustum::Side> sides;
-        int groupsSkipped = 0;  ///< groups of several boxes that were told to be outside at once
+        int groupsSkipped = 0;  ///< groups of several boxes found outside by one test
         int tests = 0;          ///< boxes of groups and single ones that were tried
     };
     Found find(const Frustum& frustum) const;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/number.h"
+#include "render/plan/messages.h"
 
 namespace farol::render {
 namespace {
@@ -62,8 +62,8 @@ std::optional<scene::Camera> startOf(const scene::Scene& scene, const PictureOpt
     return options.camera == CameraStart::scene ? scene.camera : std::nullopt;
 }
 
-[[noreturn]] void fail(const std::string& message, const std::string& field) {
-    throw Error("option.camera", message, {}, field);
+[[noreturn]] void fail(Message message, const std::string& field) {
+    throw Error(std::move(message), {}, field);
 }
 
 }  // namespace
@@ -80,10 +80,10 @@ scene::Camera chooseCamera(const scene::Scene& scene, const PictureOptions& opti
     if (options.far) camera.far = *options.far;
     if (options.eye) {
         if (options.azimuthDeg || options.elevationDeg || options.distance)
-            fail("give either eye or azimuth, elevation and distance, not both", "eye");
+            fail(message<"option.camera/orbit">(), "eye");
         camera.eye = *options.eye;
     } else if (options.azimuthDeg || options.elevationDeg || options.distance) {
-        // What is left out is the scene camera's own.
+        // Values that are not given are those of the scene's camera.
         const glm::dvec3 arm = camera.eye - camera.target;
         const double length = glm::length(arm);
         const double distance = options.distance.value_or(length);
@@ -98,10 +98,9 @@ scene::Camera chooseCamera(const scene::Scene& scene, const PictureOptions& opti
     if (!start) fitDepth(camera, ball, options);
     const glm::dvec3 view = camera.target - camera.eye;
     const double scale = std::max({1e-30, glm::length(camera.target), glm::length(camera.eye)});
-    if (!(glm::length(view) > 1e-12 * scale))
-        fail("the camera's eye and target are the same point; move one of them", "eye");
+    if (!(glm::length(view) > 1e-12 * scale)) fail(message<"option.camera/same-point">(), "eye");
     if (!(camera.far > camera.near))
-        fail("far must be more than near (" + formatNumber(camera.near) + ")", "far");
+        fail(message<"option.camera/far">("far"_arg = camera.far, "near"_arg = camera.near), "far");
     return camera;
 }
 
@@ -109,22 +108,16 @@ std::optional<Diagnostic> noteCameraStart(const scene::Scene& scene,
                                           const PictureOptions& options) {
     // A mesh alone has no camera, and with both points given the start does not matter.
     if (scene.where.line == 0 || (options.eye && options.target)) return std::nullopt;
-    Diagnostic note;
-    note.severity = Severity::info;
-    note.code = "scene.camera-start";
-    note.where = scene.where;
+    Message start;
     if (options.camera == CameraStart::engine)
-        note.message =
-            "using the start of the 2017 engine: eye 0 0 0, looking along +Z, 45 degrees";
+        start = message<"scene.camera-start/engine">();
     else if (options.camera == CameraStart::framed)
-        note.message = "using a view that frames all models";
+        start = message<"scene.camera-start/framed">();
     else if (!scene.camera)
-        note.message =
-            "no <camera>; using a view that frames all models (camera=\"engine\" gives the start "
-            "of the 2017 engine)";
+        start = message<"scene.camera-start/none">();
     else
         return std::nullopt;
-    return note;
+    return diagnosticOf(Severity::info, std::move(start), scene.where);
 }
 
 ViewTransform viewOf(const scene::Camera& camera, const glm::ivec2& size) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "render/plan/frustum.h"
+#include "render/plan/messages.h"
 
 namespace farol::render {
 namespace {
@@ -85,15 +86,22 @@ void addShares(const FramePlan& plan, const Pass& pass, const PassItem& item,
     }
 }
 
-std::string adviceFor(const FramePlan& plan, const FrameCost& cost, int frames) {
-    if (frames > 1) return "lower frames, width or height";
+Message adviceFor(const FramePlan& plan, const FrameCost& cost, int frames) {
+    if (frames > 1) return message<"part.lower-frames">();
     if (cost.geometry > cost.fragments + cost.pixels)
-        return plan.style.samples > 4 ? "lower aa, or use fewer triangles or models"
-                                      : "use fewer triangles or models, or a larger error";
-    if (plan.style.samples > 4) return "lower aa, width or height";
+        return plan.style.samples > 4 ? message<"part.lower-aa-or-triangles">()
+                                      : message<"part.fewer-triangles">();
+    if (plan.style.samples > 4) return message<"part.lower-aa">();
     if (cost.fragments > cost.pixels && plan.items.size() > 1)
-        return "lower width or height, or use fewer lights or models behind each other";
-    return "lower width or height";
+        return message<"part.lower-size-or-layers">();
+    return message<"part.lower-size">();
+}
+
+/// Core-seconds with three digits.
+std::string rounded(double coreSeconds) {
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%.3g", coreSeconds);
+    return text.data();
 }
 
 }  // namespace
@@ -133,30 +141,24 @@ void CostBudget::spend(const FramePlan& plan) {
     const FrameCost cost = estimateCost(plan);
     const double needed = cost.total() * frames_;
     if (needed > left_) {
-        std::array<char, 400> text{};
-        std::snprintf(text.data(), text.size(),
-                      "the estimated cost is %.3g core-seconds for %d x %d px, %d samples, %lld "
-                      "triangles and %d frame%s; at most %.3g are allowed%s; ",
-                      needed, plan.view.size.x, plan.view.size.y, plan.style.samples,
-                      static_cast<long long>(plan.stats.triangles), frames_,
-                      frames_ == 1 ? "" : "s", left_,
-                      left_ < whole_ ? " after the frames before" : "");
-        throw Error("limit.cost", text.data() + adviceFor(plan, cost, frames_));
+        const std::string size =
+            std::to_string(plan.view.size.x) + " x " + std::to_string(plan.view.size.y);
+        throw Error(message<"limit.cost/frames">(
+            "cost"_arg = rounded(needed), "size"_arg = size, "samples"_arg = plan.style.samples,
+            "triangles"_arg = plan.stats.triangles, "frames"_arg = frames_,
+            "most"_arg = left_ < whole_ ? message<"part.cost-rest">("left"_arg = rounded(left_))
+                                        : message<"part.cost-whole">("whole"_arg = rounded(left_)),
+            "advice"_arg = adviceFor(plan, cost, frames_)));
     }
     left_ -= cost.total();
     frames_ = std::max(1, frames_ - 1);
 }
 
-void CostBudget::spend(double coreSeconds, const std::string& what) {
+void CostBudget::spend(double coreSeconds, const std::string& work) {
     if (whole_ <= 0.0) return;
-    if (coreSeconds > left_) {
-        std::array<char, 200> text{};
-        std::snprintf(
-            text.data(), text.size(),
-            "the estimated cost is %.3g core-seconds for %s; at most %.3g are allowed%s; ",
-            coreSeconds, what.c_str(), left_, left_ < whole_ ? " after what came before" : "");
-        throw Error("limit.cost", text.data() + std::string("use fewer or smaller images"));
-    }
+    if (coreSeconds > left_)
+        throw Error(message<"limit.cost/images">("cost"_arg = rounded(coreSeconds),
+                                                 "work"_arg = work, "most"_arg = rounded(left_)));
     left_ -= coreSeconds;
 }
 

@@ -4,7 +4,7 @@
 
 #include "render/plan/frame_plan.h"
 
-/// What a frame will cost, estimated from its plan before anything is drawn. The unit is a
+/// The cost of a frame, estimated from its plan before anything is drawn. The unit is a
 /// core-second: one second of one core of the machine that the constants in cost.cpp were measured
 /// on (docs/explanation/performance.md). The estimate errs upwards: it is there to refuse, not to
 /// schedule.
@@ -32,9 +32,9 @@ class CostBudget {
     /// Counts a frame before it is drawn. Throws Error limit.cost, whose message names what to
     /// lower.
     void spend(const FramePlan& plan);
-    /// Counts work on images that is no frame. Throws Error limit.cost; `what` names the work:
+    /// Counts work on images that is no frame. Throws Error limit.cost; `work` names it:
     /// "comparing images of 4000 x 4000 px".
-    void spend(double coreSeconds, const std::string& what);
+    void spend(double coreSeconds, const std::string& work);
 
   private:
     double left_ = 0.0, whole_ = 0.0;

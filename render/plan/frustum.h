@@ -22,7 +22,7 @@ class Frustum {
 
     enum class Side : std::uint8_t { outside, straddles, inside };
     /// `planes`: a bit for each plane that is still to be tried; those that the box is wholly
-    /// within are taken out of it.
+    /// within are removed from it.
     Side test(const Box& box, unsigned& planes) const;
 
     static constexpr unsigned kAllPlanes = 0x3FU;

@@ -6,6 +6,7 @@
 #include <unordered_map>
 #include <variant>
 
+#include "render/plan/messages.h"
 #include "render/plan/visibility.h"
 #include "scene/animation.h"
 
@@ -29,9 +30,7 @@ class Collector {
   private:
     int place(const scene::Light& light, const glm::dmat4& worldFromGroup) {
         if (list_.lights.size() >= kMaxLights)
-            throw Error("limit.lights",
-                        "the scene has more than " + std::to_string(kMaxLights) + " lights",
-                        light.where);
+            throw Error(message<"limit.lights/placed">("most"_arg = kMaxLights), light.where);
         PlacedLight placed{&light, light.position, light.direction};
         if (light.space == scene::LightSpace::world) {
             placed.position = glm::dvec3(worldFromGroup * glm::dvec4(light.position, 1.0));
@@ -70,8 +69,7 @@ class Collector {
         }
         for (const scene::Model& model : group.models) {
             if (list_.instances.size() >= kMaxInstances)
-                throw Error("limit.instances",
-                            "the scene has more than " + std::to_string(kMaxInstances) + " models",
+                throw Error(message<"limit.instances/models">("most"_arg = kMaxInstances),
                             model.where);
             const Known& known = know(model);
             const glm::dmat4 worldFromObject = placed(worldFromGroup, known.mesh->mesh.origin());
@@ -91,7 +89,7 @@ class Collector {
         for (const scene::Group& child : group.groups) visit(child, worldFromGroup, lightSet);
     }
 
-    /// What does not depend on a model's place, found once for all copies of it.
+    /// The properties of a model that do not depend on its place, found once for all copies.
     struct Known {
         std::shared_ptr<const MeshData> mesh;
         bool open;
@@ -110,7 +108,7 @@ class Collector {
     const Known& know(const scene::Model& model) {
         const auto found = known_.find(&model);
         if (found != known_.end()) return found->second;
-        Known known{meshes_.get(model, assets_), generator::isOpen(model), textureOf(model),
+        Known known{meshes_.get(model, assets_), generator::isAdaptive(model), textureOf(model),
                     surfaceOf(model), -1};
         if (!model.material && !model.texture) {  // else the scene's own are drawn
             known.looks = looksOf(model, *known.mesh);

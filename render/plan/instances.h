@@ -46,7 +46,7 @@ struct InstanceList {
     BoundsTree tree;                  ///< of the instances, world space; those of no extent are out
     std::vector<TextureRef> textures;
     std::vector<generator::Surface> surfaces;  ///< exact ones, of models that are wholly open
-    std::vector<PartLook> looks;               ///< of meshes with materials of their own
+    std::vector<PartLook> looks;               ///< of meshes with their own materials
     std::vector<PlacedLight> lights;
     std::vector<std::vector<int>> lightSets;  ///< indices into lights; set 0: the scene's own
     std::vector<PlacedCurve> curves;

@@ -38,7 +38,7 @@ std::shared_ptr<const MeshData> MeshLibrary::keep(const Key& key, generator::Mes
     data->id = nextId();
     data->mesh = std::move(mesh);
     if (balanced != nullptr) {
-        data->balance = generator::balanceOf(*balanced);
+        data->balance = generator::balancedScale(*balanced);
         data->fullTurn = generator::fullTurnOf(*balanced);
     }
     data->findings = std::move(findings);

@@ -28,9 +28,9 @@ struct MeshData {
     std::uint64_t id = 0;
     generator::Mesh mesh;
     Box bounds;               ///< object space
-    glm::dvec3 balance{1.0};  ///< generator::balanceOf, where the mesh was asked to be balanced
+    glm::dvec3 balance{1.0};  ///< generator::balancedScale, where the mesh was asked to be balanced
     double fullTurn = 0.0;    ///< generator::fullTurnOf, likewise
-    Diagnostics findings;     ///< what was repaired in its file
+    Diagnostics findings;     ///< repairs of its file
 };
 
 /// Bytes that a mesh takes.
@@ -42,8 +42,8 @@ class MeshLibrary {
     explicit MeshLibrary(std::size_t maxBytes) : meshes_(maxBytes) {}
     /// The mesh of a resolved model. Throws as generator::load does.
     std::shared_ptr<const MeshData> get(const scene::Model& model, const scene::Assets& assets);
-    /// The mesh of an open model (generator::isOpen), as fine as asked. `coarse`: what get without
-    /// fineness gave for the model.
+    /// The mesh of an open model (generator::isAdaptive), as fine as asked. `coarse`: what get
+    /// without fineness gave for the model.
     std::shared_ptr<const MeshData> get(const MeshData& coarse, const scene::Model& model,
                                         const scene::Assets& assets,
                                         const generator::Fineness& fineness);

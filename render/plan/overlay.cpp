@@ -22,9 +22,9 @@ namespace farol::render {
 namespace {
 
 constexpr int kMarginUnits = 4;
-constexpr std::size_t kMostCharacters = 2000;
+constexpr std::size_t kMaxCharacters = 2000;
 
-/// What stb_easy_font writes: four a quad, axis-aligned.
+/// A vertex of stb_easy_font: four a quad, axis-aligned.
 struct FontVertex {
     float x, y, z;
     std::array<unsigned char, 4> color;
@@ -48,7 +48,7 @@ void forEachPixel(image::Image& image, int left, int top, int right, int bottom,
 
 void drawText(image::Image& image, const std::string& text, int scale) {
     scale = std::clamp(scale, 1, 8);
-    std::string ascii = text.substr(0, kMostCharacters);
+    std::string ascii = text.substr(0, kMaxCharacters);
     for (char& c : ascii)
         if (c != '\n' && (c < ' ' || c > '~')) c = '?';
     // The font's own figure: about 270 bytes a character.

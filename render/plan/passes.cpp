@@ -67,7 +67,7 @@ FeatureSet itemFeatures(const FramePlan& plan, const DrawItem& item) {
         features =
             features | lightFeatures(item, plan.lightSets[static_cast<std::size_t>(item.lightSet)],
                                      plan.style);
-    // What shows neither light nor a texture needs its outline only.
+    // Models without light and texture need their outline only.
     const bool plain = plan.style.layer == Layer::color && !plan.style.lit && item.texture < 0;
     if (item.surface && !plain) features = features | surfaceFeatures(*item.surface);
     return features;
@@ -130,7 +130,7 @@ void addItems(const FramePlan& plan, Pass& pass) {
 void composePasses(FramePlan& plan, const GlFacts& gl) {
     const FrameStyle& style = plan.style;
     const bool ids = style.layer == Layer::id;
-    // Ids are colours of their own: nothing is alike.
+    // Each model has another id colour: no two are alike.
     plan.batches = batchesOf(plan.items, plan.view, style.mergesCalls && !ids);
     for (Batch& batch : plan.batches.batches) {
         const DrawItem& first = plan.items[plan.batches.order[batch.first]];
@@ -141,7 +141,7 @@ void composePasses(FramePlan& plan, const GlFacts& gl) {
     const Sampling sampling = chooseSampling(style.samples, gl);
     Pass pass;
     pass.target.samples = sampling.samples;
-    // With passes of their own, each sample is shaded: what changes within a pixel is averaged.
+    // With several passes each sample is shaded, and changes within a pixel are averaged.
     pass.state.eachSample = pass.target.wide = sampling.passes > 1;
     pass.target.output = sampling.passes > 1 ? PassOutput::mean : PassOutput::image;
     if (style.skyboxTexture < 0 && style.backgroundTexture < 0)

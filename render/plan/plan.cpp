@@ -7,6 +7,7 @@
 #include "render/plan/camera.h"
 #include "render/plan/frustum.h"
 #include "render/plan/light_reach.h"
+#include "render/plan/messages.h"
 #include "render/plan/passes.h"
 #include "render/plan/sampling.h"
 #include "render/plan/tessellate.h"
@@ -24,7 +25,7 @@ int defaultSamples(double errorPx) {
 
 /// Triangles of a frame from which on meshes are drawn as coarse as they come: copies that all fill
 /// the view would each be fine enough for it, and a frame take minutes. Some seconds' worth.
-constexpr std::int64_t kMostRefined = 16'000'000;
+constexpr std::int64_t kMaxRefinedTriangles = 16'000'000;
 constexpr double kAxisLength = 100.0;  // as the course draws them
 // Where the third-person camera holds its entity: in front of the eye, in eye space.
 constexpr glm::dvec3 kEntityPlace{0.0, 0.0, -3.0};
@@ -49,9 +50,8 @@ scene::Shading automaticShading(const scene::Scene& scene, const InstanceList& l
 }
 
 [[noreturn]] void failSize(const glm::ivec2& size, int maxSide) {
-    throw Error("limit.pixels", "a picture of " + std::to_string(size.x) + " x " +
-                                    std::to_string(size.y) + " px is too large; at most " +
-                                    std::to_string(maxSide) + " a side are drawn");
+    throw Error(message<"limit.pixels/side">("width"_arg = size.x, "height"_arg = size.y,
+                                             "most"_arg = maxSide));
 }
 
 class Planner {
@@ -111,7 +111,7 @@ class Planner {
         plan_.globalAmbient = scene_.globalAmbient;
     }
 
-    /// `inherited`: lights of the set 0 that a list without lights of its own is lit by.
+    /// `inherited`: lights of set 0 for a list that has none.
     void addInstances(const scene::Scene& scene, const InstanceList& list,
                       const ViewTransform& view, const std::vector<EyeLight>& inherited) {
         const int firstSet = static_cast<int>(plan_.lightSets.size());
@@ -219,8 +219,8 @@ class Planner {
         const scene::Model& model = *instance.model;
         DrawItem item;
         item.mesh = instance.mesh;
-        if (instance.open && plan_.stats.triangles < kMostRefined) {
-            const std::optional<SeenSurface> seen =
+        if (instance.open && plan_.stats.triangles < kMaxRefinedTriangles) {
+            const std::optional<ProjectedSurface> seen =
                 instance.surface >= 0 && wantsSurface()
                     ? seenSurface(list.surfaces[static_cast<std::size_t>(instance.surface)],
                                   viewFromObject)
@@ -369,8 +369,8 @@ class Planner {
         item.texture = textureIndex(list, static_cast<std::size_t>(texture));
     }
 
-    /// A texgen plane for places relative to `origin`. Whole turns of a far offset are taken off:
-    /// beside them a float would lose the rest.
+    /// A texgen plane for places relative to `origin`. Subtracts the whole periods of a large
+    /// offset: a float would round off the rest.
     static glm::vec4 planeOf(glm::dvec4 plane, const glm::dvec3& origin) {
         constexpr double kFar = 32.0;
         plane.w += glm::dot(glm::dvec3(plane), origin);

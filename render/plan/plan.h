@@ -15,11 +15,11 @@ namespace farol::render {
 /// Width and height that a picture will have, after scale. Throws Error limit.pixels.
 glm::ivec2 pictureSize(const scene::Scene& scene, const PictureOptions& options);
 
-/// What may be left out of a frame because nothing of it can be seen. All on but in tests, which
-/// show that the picture is the same without.
+/// Parts of a frame that are skipped because they cannot be seen. All on but in tests, which show
+/// that the image is the same without.
 struct Skipping {
-    bool outside = true;         ///< what is beyond the view's borders
-    bool betweenSamples = true;  ///< what is too small to be met by a sample of any pixel
+    bool outside = true;         ///< models beyond the view's borders
+    bool betweenSamples = true;  ///< models too small to cover a sample of any pixel
     bool lights = true;          ///< lights that add nothing to a model
     bool calls = true;           ///< draw calls of models that differ in their place alone
 };

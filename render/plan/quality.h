@@ -13,7 +13,7 @@
 /// machine that they were taken on.
 namespace farol::render {
 
-/// What the cost of a frame is told from.
+/// The values from which the cost of a frame is estimated.
 struct FrameLoad {
     double pixels = 0.0;            ///< of the picture
     double openModels = 0.0;        ///< whose divisions the renderer chooses

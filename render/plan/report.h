@@ -7,19 +7,19 @@
 /// Reports that travel with an image about its plan.
 namespace farol::render {
 
-/// What was drawn and what was skipped.
+/// Counts of drawn and skipped parts of a frame.
 struct Stats {
     int instances = 0;  ///< models, copies of scattered groups counted
     int culled = 0;     ///< of them not drawn: outside the view, or without any surface
     int drawCalls = 0, textures = 0, lights = 0;
     std::int64_t triangles = 0;
-    int culledGroups = 0;     ///< groups told to be outside at once, without a look at their models
+    int culledGroups = 0;     ///< groups found outside by one test, without testing their models
     int betweenSamples = 0;   ///< models too small to be met by a sample of any pixel
     int texturesSkipped = 0;  ///< pictures that only models sample which are not drawn
     std::int64_t lightsSkipped = 0;  ///< for each model: lights that add nothing to it
 };
 
-/// What a budget chose (PictureOptions::budgetMs), and the time that it is expected to take.
+/// The choice of a budget (PictureOptions::budgetMs), and the time expected for it.
 struct Quality {
     int samples = 4;
     double errorPx = kDefaultErrorPx;

@@ -6,8 +6,8 @@
 
 namespace farol::render {
 
-/// How an image's samples are taken: by so many passes, which each move the image by a part of a
-/// pixel, of so many samples at once.
+/// How an image is sampled: by `passes`, each of which moves the image by a part of a pixel, of
+/// `samples` at once.
 struct Sampling {
     int samples = 1, passes = 1;
 };
@@ -18,7 +18,7 @@ Sampling chooseSampling(int wanted, const GlFacts& gl);
 /// Offset of a pass within a pixel, -0.5..0.5: the centres of the cells of a rotated grid.
 glm::dvec2 passOffset(int pass, int passes);
 
-/// All positions that `wanted` samples are taken at, over all passes.
+/// Returns the positions of `wanted` samples over all passes.
 SamplePattern samplePattern(int wanted, const GlFacts& gl);
 
 }  // namespace farol::render

@@ -1,6 +1,7 @@
 #include "render/plan/skybox.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace farol::render {
 namespace {
@@ -17,6 +18,11 @@ constexpr std::array<Cell, 6> kCells{{{2, 1}, {0, 1}, {1, 0}, {1, 2}, {1, 1}, {3
 int scaled(int at, int from, int to) { return static_cast<int>(std::int64_t{at} * from / to); }
 
 }  // namespace
+
+bool isCross(int width, int height) {
+    const double cellWidth = width / 4.0, cellHeight = height / 3.0;
+    return std::abs(cellWidth - cellHeight) <= std::max(1.0, 0.01 * cellHeight);
+}
 
 std::array<image::Image, 6> cutCross(const image::Image& cross, int maxSide) {
     const int cellWidth = std::max(1, cross.width / 4);

@@ -6,6 +6,9 @@
 
 namespace farol::render {
 
+/// Returns whether an image of that size, px, is a cross of 4 x 3 squares, within 1 %.
+bool isCross(int width, int height);
+
 /// Largest side of a face, px: that of a cross of kMaxTexturePixels with square cells. A cross of
 /// other proportions would make faces many times its own size.
 inline constexpr int kMaxFaceSide = 2309;

@@ -7,14 +7,14 @@ namespace farol::render {
 namespace {
 
 /// Distance from the viewer to the curved part, in the surface's units; 0 where it is not known.
-double unitDistance(const SeenSurface& seen) {
+double unitDistance(const ProjectedSurface& seen) {
     const auto distance = seen.surface.kind->distance;
     return distance != nullptr ? distance(seen.surface, seen.eye) : 0.0;
 }
 
 /// Distance from the viewer to the surface, view units, or less; 0 where nothing is known.
 double distanceTo(const Box& bounds, const glm::dmat4& viewFromObject,
-                  const std::optional<SeenSurface>& seen, double smallest) {
+                  const std::optional<ProjectedSurface>& seen, double smallest) {
     const glm::dvec3 eye(glm::inverse(viewFromObject) * glm::dvec4(0, 0, 0, 1));
     const glm::dvec3 outside = glm::max(glm::max(bounds.min - eye, eye - bounds.max), 0.0);
     double distance = glm::length(outside);
@@ -31,7 +31,8 @@ double distanceTo(const Box& bounds, const glm::dmat4& viewFromObject,
 /// which is farther: what is seen of an error e is at most e D / |D^2 - r^2| (the largest value of
 /// sin(view, normal) / distance). Returned is the distance of which that is the inverse; 0 for
 /// anything but a ball.
-double ballDistance(const SeenSurface& seen, const glm::dvec3& center, const glm::dvec3& columns) {
+double ballDistance(const ProjectedSurface& seen, const glm::dvec3& center,
+                    const glm::dvec3& columns) {
     if (!seen.surface.kind->isBall) return 0.0;
     const glm::dvec3 radii = columns * seen.surface.lengths;
     const double r = std::max({radii.x, radii.y, radii.z});
@@ -66,8 +67,8 @@ double shadingDivisions(scene::Shading shading, double radiusPx) {
 
 }  // namespace
 
-std::optional<SeenSurface> seenSurface(const generator::Surface& surface,
-                                       const glm::dmat4& viewFromObject) {
+std::optional<ProjectedSurface> seenSurface(const generator::Surface& surface,
+                                            const glm::dmat4& viewFromObject) {
     glm::dmat3 viewFromUnit(viewFromObject);
     double largest = 0.0;
     for (int i = 0; i < 3; ++i) {
@@ -79,18 +80,18 @@ std::optional<SeenSurface> seenSurface(const generator::Surface& surface,
     if (!(std::abs(glm::determinant(viewFromUnit)) > kFlattest * largest * largest * largest))
         return std::nullopt;
     const glm::dvec3 center(viewFromObject[3]);
-    const SeenSurface seen{surface, -(glm::inverse(viewFromUnit) * center)};
+    const ProjectedSurface seen{surface, -(glm::inverse(viewFromUnit) * center)};
     if (surface.kind->raySteps > 0 && unitDistance(seen) < kNearest) return std::nullopt;
     return seen;
 }
 
 generator::Fineness fineness(const Box& bounds, const glm::dmat4& viewFromObject,
-                             const std::optional<SeenSurface>& seen, bool textured,
+                             const std::optional<ProjectedSurface>& seen, bool textured,
                              const Tolerance& tolerance, const ViewTransform& view) {
     const glm::dmat3 linear(viewFromObject);
     // Singular values: square roots of the eigenvalues of the Gram matrix. The Frobenius norm
     // bounds the largest within sqrt(3), the determinant over its square the smallest: loose
-    // bounds would cost triangles, so the columns of an orthogonal scale are taken as they are.
+    // bounds would cost triangles, so the columns of an orthogonal scale are used as they are.
     const glm::dvec3 columns(glm::length(linear[0]), glm::length(linear[1]),
                              glm::length(linear[2]));
     const double dots = std::abs(glm::dot(linear[0], linear[1])) +
@@ -122,13 +123,14 @@ generator::Fineness fineness(const Box& bounds, const glm::dmat4& viewFromObject
         return fine;
     }
     // The plan's error option moves the shading's bound along: error falls with the square.
-    double wish = shadingDivisions(tolerance.shading, radius * focalPx / depth) *
-                  std::sqrt(0.25 / tolerance.errorPx);
+    double requiredDivisions = shadingDivisions(tolerance.shading, radius * focalPx / depth) *
+                               std::sqrt(0.25 / tolerance.errorPx);
     // Coordinates are linear within a triangle: at poles and apexes that shows first.
-    if (textured) wish *= 2.0;
+    if (textured) requiredDivisions *= 2.0;
     // A turned profile's pixels know their normals, but not where beside the facet the surface is.
-    if (seen) wish *= 1.25;
-    fine.fullTurn = generator::ladder(std::clamp(wish, 8.0, generator::kMostDivisions));
+    if (seen) requiredDivisions *= 1.25;
+    fine.fullTurn =
+        generator::roundUpToStep(std::clamp(requiredDivisions, 8.0, generator::kMaxDivisions));
     // Eight carry vertex lighting and normals round an apex; a texture wants them finer.
     fine.straightSide = textured ? fine.fullTurn : std::min(8.0, fine.fullTurn);
     return fine;

@@ -19,7 +19,7 @@ struct Tolerance {
 };
 
 /// An exact surface as it is seen: the viewer in the surface's own units.
-struct SeenSurface {
+struct ProjectedSurface {
     generator::Surface surface;
     glm::dvec3 eye;
 };
@@ -27,16 +27,16 @@ struct SeenSurface {
 /// The exact surface of a model that stands at viewFromObject, if single precision can follow a
 /// pixel's ray to it: not where it is flattened, and not where the viewer stands so close to it
 /// that its size hides the distance.
-std::optional<SeenSurface> seenSurface(const generator::Surface& surface,
-                                       const glm::dmat4& viewFromObject);
+std::optional<ProjectedSurface> seenSurface(const generator::Surface& surface,
+                                            const glm::dmat4& viewFromObject);
 
 /// How fine a shape has to be whose bounding box is `bounds` (object space) and that stands at
 /// viewFromObject, so that no point of its surface moves by more than tolerance.errorPx on the
-/// screen (docs/explanation/accuracy.md), rounded down to a ladder of quarter powers of two so that
-/// an orbiting camera meets the same meshes again. Curved shapes also get the divisions that their
-/// shading needs, unless their pixels take it from the surface `seen`.
+/// screen (docs/explanation/accuracy.md), rounded down to a roundUpToStep of quarter powers of two
+/// so that an orbiting camera meets the same meshes again. Curved shapes also get the divisions
+/// that their shading needs, unless their pixels take it from the surface `seen`.
 generator::Fineness fineness(const Box& bounds, const glm::dmat4& viewFromObject,
-                             const std::optional<SeenSurface>& seen, bool textured,
+                             const std::optional<ProjectedSurface>& seen, bool textured,
                              const Tolerance& tolerance, const ViewTransform& view);
 
 }  // namespace farol::render

@@ -5,15 +5,17 @@
 #include <future>
 #include <thread>
 
+#include "render/plan/messages.h"
+#include "render/plan/skybox.h"
+
 namespace farol::render {
 namespace {
 
-constexpr std::size_t kMostThreads = 8;
-/// Of pictures that are decoded at once: one takes up to 14 bytes a pixel meanwhile. A larger one
-/// is decoded alone.
-constexpr std::int64_t kPixelsAtOnce = 16 << 20;
+constexpr std::size_t kMaxThreads = 8;
+/// Of images that are decoded at once, with up to 14 bytes a pixel. A larger one is decoded alone.
+constexpr std::int64_t kMaxPixelsAtOnce = 16 << 20;
 
-void turnOver(image::Image& image) {
+void flipVertically(image::Image& image) {
     const auto stride = static_cast<std::ptrdiff_t>(image.width) * 4;
     auto top = image.pixels.begin(), bottom = image.pixels.end() - stride;
     for (; top < bottom; top += stride, bottom -= stride)
@@ -25,17 +27,18 @@ std::string sizeOf(int width, int height) {
 }
 
 TextureNote scaledNote(const image::Image& image, const std::string& used) {
-    return {"image.scaled", "is " + sizeOf(image.width, image.height) +
-                                ", more than the GL takes; using " + used +
-                                "; fix: scale the image down"};
+    return {TextureNote::Kind::scaled, image.width, image.height, used};
 }
 
 TextureLevels levelsOf(const TextureRef& ref, const UndecodedTexture& texture, const GlFacts& gl) {
     TextureLevels levels;
     std::string damage;
     image::Image image = texture.decode(damage);
-    if (!damage.empty()) levels.notes.push_back({"image.damaged", damage});
+    if (!damage.empty())
+        levels.notes.push_back({TextureNote::Kind::damaged, image.width, image.height, damage});
     if (ref.cube) {
+        if (!isCross(image.width, image.height))
+            levels.notes.push_back({TextureNote::Kind::noCross, image.width, image.height});
         const int side = std::min(gl.maxFaceSide, kMaxFaceSide);
         if (image.width / 4 > side)
             levels.notes.push_back(scaledNote(image, "faces of " + sizeOf(side, side)));
@@ -50,14 +53,29 @@ TextureLevels levelsOf(const TextureRef& ref, const UndecodedTexture& texture, c
     }
     if (mipmapped(ref.filter)) levels.images = image::buildMipmaps(image);
     levels.images.insert(levels.images.begin(), std::move(image));
-    for (image::Image& level : levels.images) turnOver(level);
+    for (image::Image& level : levels.images) flipVertically(level);
     return levels;
 }
 
 }  // namespace
 
 Diagnostic warningOf(const TextureNote& note, const TextureRef& ref) {
-    return {Severity::warning, note.code, ref.where, "image \"" + ref.path + "\" " + note.text, {}};
+    const auto file = "file"_arg = uncut(ref.path);
+    const auto width = "width"_arg = note.width;
+    const auto height = "height"_arg = note.height;
+    Message problem;
+    switch (note.kind) {
+        case TextureNote::Kind::scaled:
+            problem = message<"image.scaled">(file, width, height, "used"_arg = note.detail);
+            break;
+        case TextureNote::Kind::damaged:
+            problem = message<"image.damaged">(file, "damage"_arg = note.detail);
+            break;
+        case TextureNote::Kind::noCross:
+            problem = message<"image.cross">(file, width, height);
+            break;
+    }
+    return diagnosticOf(Severity::warning, std::move(problem), ref.where);
 }
 
 bool mipmapped(scene::Filter filter) {
@@ -65,9 +83,9 @@ bool mipmapped(scene::Filter filter) {
 }
 
 void loadTextures(const std::vector<const TextureRef*>& refs, const OpenTexture& open,
-                  const TextureTaker& taker, const GlFacts& gl) {
+                  const TextureLoading& callbacks, const GlFacts& gl) {
     const std::size_t threads =
-        std::clamp<std::size_t>(std::thread::hardware_concurrency(), 1, kMostThreads);
+        std::clamp<std::size_t>(std::thread::hardware_concurrency(), 1, kMaxThreads);
     struct Loading {
         const TextureRef* ref;
         std::int64_t pixels;
@@ -75,13 +93,13 @@ void loadTextures(const std::vector<const TextureRef*>& refs, const OpenTexture&
     };
     std::deque<Loading> loading;  // their destructors wait
     std::int64_t pixels = 0;
-    bool idle = taker.meanwhile != nullptr;
+    bool idle = callbacks.whileDecoding != nullptr;
     const auto takeFirst = [&] {
-        if (idle) taker.meanwhile();
+        if (idle) callbacks.whileDecoding();
         idle = false;
         Loading first = std::move(loading.front());
         loading.pop_front();
-        taker.take(*first.ref, first.levels.get());
+        callbacks.onDecoded(*first.ref, first.levels.get());
         pixels -= first.pixels;
     };
     for (const TextureRef* ref : refs) {
@@ -93,14 +111,14 @@ void loadTextures(const std::vector<const TextureRef*>& refs, const OpenTexture&
             throw;
         }
         const std::int64_t more = std::int64_t{next.width} * next.height;
-        while (!loading.empty() && (loading.size() >= threads || pixels + more > kPixelsAtOnce))
+        while (!loading.empty() && (loading.size() >= threads || pixels + more > kMaxPixelsAtOnce))
             takeFirst();
         pixels += more;
         const auto load = [ref, next, &gl] { return levelsOf(*ref, next, gl); };
-        // One alone needs no thread, where nothing else is to be done meanwhile.
+        // One alone needs no thread, where there is no other work.
         const auto how = refs.size() > 1 || idle ? std::launch::async : std::launch::deferred;
         loading.push_back({ref, more, std::async(how, load)});
-        if (taker.expect) taker.expect(*ref, next);
+        if (callbacks.onReserved) callbacks.onReserved(*ref, next);
     }
     while (!loading.empty()) takeFirst();
 }

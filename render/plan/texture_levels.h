@@ -12,11 +12,14 @@
 
 namespace farol::render {
 
-/// A warning about a texture's file without the file's name, which differs between scenes that
-/// share the texture: "is 20000 x 2 px; ...".
+/// A problem of a texture's file without the file's name, which differs between scenes that share
+/// the texture.
 struct TextureNote {
-    const char* code;
-    std::string text;
+    enum class Kind { scaled, damaged, noCross };
+    Kind kind = Kind::scaled;
+    int width = 0, height = 0;  ///< of the file, px
+    /// scaled: the size that is used instead, "16384 x 2 px"; damaged: as decodeImage sets it.
+    std::string detail = {};
 };
 
 /// The note as a warning of the scene that samples the texture by `ref`.
@@ -32,30 +35,30 @@ struct TextureLevels {
 /// True where the filter reads smaller levels.
 bool mipmapped(scene::Filter filter);
 
-/// A picture whose file is read: how large it claims to be, and how to get it. `decode` may be
+/// An image whose file is read: the size that its head gives, and its decoder. `decode` may be
 /// called in any thread and may throw Error image.*.
 struct UndecodedTexture {
-    int width = 0, height = 0;  ///< 0: told by decode alone, and small
+    int width = 0, height = 0;  ///< 0: known after decode alone, and small
     /// Sets its argument as decodeImage sets `damage`.
     std::function<image::Image(std::string&)> decode;
 };
 
-/// Reads a picture's file and its head. May throw Error asset.*, image.*, limit.*.
+/// Reads an image's file and its head. May throw Error asset.*, image.*, limit.*.
 using OpenTexture = std::function<UndecodedTexture(const TextureRef&)>;
 
-/// What becomes of pictures that are loaded; all of it is called in the caller's thread.
-struct TextureTaker {
-    /// In their order, before they are decoded.
-    std::function<void(const TextureRef&, const UndecodedTexture&)> expect = nullptr;
+/// Callbacks of loadTextures, called in the caller's thread.
+struct TextureLoading {
+    /// For each texture in their order, before it is decoded.
+    std::function<void(const TextureRef&, const UndecodedTexture&)> onReserved = nullptr;
     /// Once, while the first of them are being decoded.
-    std::function<void()> meanwhile = nullptr;
-    /// In their order.
-    std::function<void(const TextureRef&, const TextureLevels&)> take;
+    std::function<void()> whileDecoding = nullptr;
+    /// For each texture in their order.
+    std::function<void(const TextureRef&, const TextureLevels&)> onDecoded;
 };
 
 /// Decodes images, scales those down that the GL does not take as large, and makes their levels,
 /// several at once. Of several faults the first in their order is thrown.
 void loadTextures(const std::vector<const TextureRef*>& refs, const OpenTexture& open,
-                  const TextureTaker& taker, const GlFacts& gl);
+                  const TextureLoading& callbacks, const GlFacts& gl);
 
 }  // namespace farol::render

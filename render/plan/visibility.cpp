@@ -16,7 +16,9 @@ constexpr std::size_t kMaxExplained = 2'000;       // models that findHidden loo
 constexpr std::size_t kMaxInsideTests = 64;        // rays through meshes in one call
 constexpr std::size_t kMaxRayTriangles = 100'000;  // of a mesh that a ray is sent through
 constexpr std::size_t kMaxLitSamples = 300;        // triangles of a mesh whose light is estimated
-constexpr float kVisibleLevel = 1.5F / 255.0F;
+/// The default ambient light on the default material, of 255: as good as black.
+constexpr int kDarkLevel = 10;
+constexpr float kVisibleLevel = (kDarkLevel + 0.5F) / 255.0F;
 /// Directions flatter than this (sine of the elevation) are no light from below.
 constexpr double kClearlyBelow = 0.2;
 
@@ -117,7 +119,8 @@ const scene::Material& materialOf(const scene::Model& model, const scene::Materi
 
 float brightest(const glm::vec3& color) { return std::max({color.r, color.g, color.b}); }
 
-/// What one light adds to a diffuse or specular surface, at most: attenuation, cone and the cosine.
+/// Returns the most that one light adds to a diffuse or specular surface: attenuation, cone and the
+/// cosine.
 float lightAt(const PlacedLight& placed, const glm::dvec3& point, const glm::dvec3& normal) {
     const scene::Light& light = *placed.light;
     if (light.type == scene::LightType::directional)
@@ -364,7 +367,7 @@ bool isNearlyBlank(const image::Image& image) {
     const std::size_t most = pixels / 2'000;
     std::size_t different = 0;
     for (const std::uint8_t* p = first; p != first + 4 * pixels; p += 4) {
-        const bool isBlack = (p[0] | p[1] | p[2]) == 0;
+        const bool isBlack = std::max({p[0], p[1], p[2]}) <= kDarkLevel;
         if (isBlack || (p[0] == first[0] && p[1] == first[1] && p[2] == first[2])) continue;
         if (++different > most) return false;
     }

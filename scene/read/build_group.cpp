@@ -164,7 +164,7 @@ std::optional<Transform> SceneBuilder::rotate(pugi::xml_node element) {
         findings().warn(message<"scene.range/turn">(), given.where("time"));
         return std::nullopt;
     }
-    tellRadians(given, "angle", "rotate");
+    warnIfRadians(given, "angle", "rotate");
     return Rotate{given.number("angle", 0.0), axis};
 }
 
@@ -198,8 +198,8 @@ void SceneBuilder::models(pugi::xml_node element, Group& group, GroupState& stat
 
 /// 1.57 and 3.14159 are right angles of somebody who thinks in radians: what is a multiple of 15
 /// degrees to a tenth of one, and no whole number of degrees, up to a full turn.
-void SceneBuilder::tellRadians(const Values& given, std::string_view angle,
-                               std::string_view element) {
+void SceneBuilder::warnIfRadians(const Values& given, std::string_view angle,
+                                 std::string_view element) {
     constexpr double kStep = 15.0, kNear = 0.1;
     const double value = given.number(angle, 0.0);
     const double steps = std::round(glm::degrees(value) / kStep);
@@ -211,7 +211,8 @@ void SceneBuilder::tellRadians(const Values& given, std::string_view angle,
                     given.where(angle));
 }
 
-void SceneBuilder::tellSwapped(const Values& given, std::string_view least, std::string_view most) {
+void SceneBuilder::warnIfSwapped(const Values& given, std::string_view least,
+                                 std::string_view most) {
     if (given.has(least) && given.has(most) && given.number(least) > given.number(most))
         findings().warn(message<"scene.swapped">("min"_arg = least, "max"_arg = most),
                         given.where(least));
@@ -225,8 +226,8 @@ void SceneBuilder::scatter(pugi::xml_node element, Group& group) {
     made.radiusMax = given.number("xzMax", made.radiusMin);
     made.yMin = given.number("yMin", 0.0);
     made.yMax = given.number("yMax", 0.0);
-    tellSwapped(given, "xzMin", "xzMax");
-    tellSwapped(given, "yMin", "yMax");
+    warnIfSwapped(given, "xzMin", "xzMax");
+    warnIfSwapped(given, "yMin", "yMax");
     made.seed =
         static_cast<std::uint64_t>(given.number("seed", static_cast<double>(++session_.scatters)));
     if (group.scatter) findings().warn(message<"scene.duplicate-element/scatter">(), at(element));

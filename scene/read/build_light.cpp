@@ -53,7 +53,7 @@ void SceneBuilder::light(pugi::xml_node element, Group& group) {
         findings().warn(
             message<"scene.missing-attribute/light-type">("type"_arg = kLightTypeWords[light.type]),
             at(element));
-    tellRadians(attributes, "cutoff", "light");
+    warnIfRadians(attributes, "cutoff", "light");
     light.cutoffDeg = attributes.number("cutoff", 180.0);
     light.exponent = attributes.number("exponent", 0.0);
     colorAttributes(attributes, "diff", light.diffuse);

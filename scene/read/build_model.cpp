@@ -80,8 +80,8 @@ void SceneBuilder::model(pugi::xml_node element, Group& group) {
     scatter.radiusMax = given.number("xzMaxR", scatter.radiusMin);
     scatter.yMin = given.number("yMinR", 0.0);
     scatter.yMax = given.number("yMaxR", 0.0);
-    tellSwapped(given, "xzMinR", "xzMaxR");
-    tellSwapped(given, "yMinR", "yMaxR");
+    warnIfSwapped(given, "xzMinR", "xzMaxR");
+    warnIfSwapped(given, "yMinR", "yMaxR");
     scatter.seed = ++session_.scatters;
     Group& ring = group.groups.emplace_back();
     ring.where = made.where;

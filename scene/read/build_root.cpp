@@ -199,7 +199,7 @@ void SceneBuilder::camera(pugi::xml_node element) {
             made.up = given.vector("x", "y", "z", glm::dvec3(0.0));
             up = at(child);
         } else {
-            tellRadians(given, "fov", "projection");
+            warnIfRadians(given, "fov", "projection");
             made.fovDeg = given.number("fov", made.fovDeg);
             made.near = given.number("near", made.near);
             made.far = given.number("far", made.far);

@@ -80,8 +80,8 @@ class SceneBuilder {
     std::optional<Transform> scaling(pugi::xml_node element);
     void models(pugi::xml_node element, Group& group, GroupState& state);
     void scatter(pugi::xml_node element, Group& group);
-    void tellRadians(const Values& values, std::string_view angle, std::string_view element);
-    void tellSwapped(const Values& values, std::string_view least, std::string_view most);
+    void warnIfRadians(const Values& values, std::string_view angle, std::string_view element);
+    void warnIfSwapped(const Values& values, std::string_view least, std::string_view most);
 
     // Lights (build_light.cpp).
     void lights(pugi::xml_node element, Group& group, GroupState& state);

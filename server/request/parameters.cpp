@@ -134,7 +134,7 @@ std::int64_t wholeNumber(const std::string& name, const std::string& value, std:
 }
 
 worker::Turn turnOf(const Parameters& parameters) {
-    constexpr std::int64_t kMost =
+    constexpr std::int64_t kMaxSeq =
         (std::int64_t{1} << 53U) - 1;  // the largest exact integer of JavaScript
     worker::Turn turn;
     turn.session = parameters.ownValue("session");
@@ -146,7 +146,7 @@ worker::Turn turnOf(const Parameters& parameters) {
     if (turn.session.empty() || turn.session.size() > 64 ||
         !std::all_of(turn.session.begin(), turn.session.end(), isPlain))
         throw fault("session", message<"option.range/session">());
-    turn.seq = wholeNumber("seq", seq, 0, kMost);
+    turn.seq = wholeNumber("seq", seq, 0, kMaxSeq);
     return turn;
 }
 

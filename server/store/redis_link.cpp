@@ -13,7 +13,7 @@
 namespace farol::server::store {
 namespace {
 
-constexpr std::size_t kMostFree = 16;  // connections kept for later
+constexpr std::size_t kMaxFreeConnections = 16;  // connections kept for later
 constexpr const char* kPausing = "it was not there a moment ago";
 
 [[noreturn]] void refuseUrl(const std::string& why) {
@@ -159,7 +159,7 @@ RedisLink::Connection RedisLink::take() {
 
 void RedisLink::give(Connection connection) {
     const std::lock_guard lock(mutex_);
-    if (free_.size() < kMostFree) free_.push_back(std::move(connection));
+    if (free_.size() < kMaxFreeConnections) free_.push_back(std::move(connection));
 }
 
 /// Says each change once. An empty fault: all is well.

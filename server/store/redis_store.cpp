@@ -16,7 +16,7 @@ constexpr const char* kAsideS = "604800";  // damaged files are kept for a week
 constexpr int kRetryAfterFullS = 60;       // somebody has to make room
 // In a cluster, one node has all of it: the scripts need that.
 constexpr const char* kPrefix = "{farol}";
-constexpr int kMostRounds = 1'000;  // of expiring, each of at most a thousand scenes
+constexpr int kMaxRounds = 1'000;  // of expiring, each of at most a thousand scenes
 
 Time timeOfMs(std::int64_t ms) {
     return ms == 0 ? Time::max() : Time(std::chrono::milliseconds(ms));
@@ -168,7 +168,7 @@ std::vector<Entry> RedisStore::list() {
 std::size_t RedisStore::expire() {
     std::size_t gone = 0;
     try {
-        for (int round = 0; round < kMostRounds; ++round) {
+        for (int round = 0; round < kMaxRounds; ++round) {
             const auto now = static_cast<std::size_t>(run(redis::kExpire, {}).number);
             gone += now;
             if (now == 0) break;

@@ -12,7 +12,7 @@
 #include "tests/support/plan_scene.h"
 
 // The promise of error=: nothing of a surface whose divisions are open is drawn farther from its
-// place than that many pixels. Meshes are taken from the plan, exact surfaces are evaluated here.
+// place than that many pixels. Meshes are those of the plan, exact surfaces are evaluated here.
 using namespace farol;
 
 namespace {
@@ -400,7 +400,7 @@ TEST_CASE("half the error lowers the median of the true error over 100 cameras")
             const Subject subject = lottery.subject(kind, files);
             View view = viewOf(lottery, subject);
             const scene::BundleAssets assets(files);
-            // Fine enough that the ladder's coarsest mesh is not the one for both.
+            // Fine enough that the roundUpToStep's coarsest mesh is not the one for both.
             view.options.errorPx = 0.5;
             const render::FramePlan coarse =
                 support::planScene(view.scene, view.options, assets, meshes);

@@ -60,7 +60,7 @@ TEST_CASE("every way to lay a texture gives the exact pictures") {
             REQUIRE(figures.interior.pixels > 3000);
             CHECK(figures.stray == 0);
             // As for the other textures: 8-bit filter weights on top of rounding, and triangles
-            // with texture coordinates of their own at poles.
+            // with separate texture coordinates at poles.
             CHECK(figures.interior.rms < 0.55);
             CHECK(figures.interior.percentile999 < 3.0);
         }

@@ -85,7 +85,7 @@ TEST_CASE("the output's name chooses the format, and --format wins") {
     CHECK(piped.out == readFile("a.png"));
 }
 
-TEST_CASE("scenes come from stdin, and assets from where they are said to be") {
+TEST_CASE("scenes come from stdin, and assets from --assets") {
     freshFolder();
     writeFile("scene.xml", kScene);
     const Outcome piped = run("render - -o p.png", kScene);
@@ -161,7 +161,7 @@ TEST_CASE("an output appears whole, and keeps its mode") {
     CHECK(readFile("p.png").size() > 100);
 }
 
-TEST_CASE("warnings are said, and with --strict they are errors") {
+TEST_CASE("warnings are printed, and with --strict they are errors") {
     freshFolder();
     std::string scene = kScene;
     scene.replace(scene.find("<window"), 7, "<widnow");
@@ -206,7 +206,7 @@ TEST_CASE("a run prints at most 50 findings, and the same missing file once") {
     CHECK(listed.at("diagnostics").back().at("message") == "83 more findings are not shown");
 }
 
-TEST_CASE("all is said on stdout with --json, and nothing on stderr") {
+TEST_CASE("all output is on stdout with --json, and none on stderr") {
     freshFolder();
     writeFile("scene.xml", kScene);
     writeFile("cut.xml", std::string(kScene).substr(0, 300));

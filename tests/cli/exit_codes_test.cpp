@@ -12,7 +12,7 @@ using namespace farol::test;
 struct Case {
     std::string arguments;
     int status;
-    std::vector<std::string> stderrHolds;  ///< empty: nothing may be said
+    std::vector<std::string> stderrHolds;  ///< empty: nothing may be printed
 };
 
 void check(const std::vector<Case>& cases) {

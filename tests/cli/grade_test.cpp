@@ -159,7 +159,7 @@ TEST_CASE("a run that was ended in its midst goes on to the same reports") {
     const std::size_t before = resultsIn("out");
     CHECK(before < 24);
     CHECK_FALSE(exists("out/report.json"));
-    // What a machine without power leaves of a file.
+    // A file as a power failure leaves it.
     for (const auto& entry : fs::directory_iterator(folder() / "out" / "results"))
         if (entry.path().extension() == ".grade") {
             fs::resize_file(entry.path(), fs::file_size(entry.path()) / 2);
@@ -182,7 +182,7 @@ TEST_CASE("a submission that takes all memory, or no end, stops no other") {
     WARN("without the hungry one: a sanitizer's build has no memory cap");
     const std::string hungry;
 #else
-    // Just as many triangles as may be drawn. Last by name, so that it is not yet begun when a
+    // Just as many triangles as may be drawn. Last by name, so it is not yet begun when a
     // worker is stopped.
     const std::string hungry = "student-999-hungry.xml";
     writeFile("class/" + hungry, replaced(kReference, "box_1_2", "sphere_1_1580_1580"));
@@ -216,7 +216,7 @@ TEST_CASE("a submission that takes all memory, or no end, stops no other") {
     CHECK(graded + late == many);
 }
 
-TEST_CASE("a mistake without a place in the document is told like any other") {
+TEST_CASE("a mistake without a place in the document is reported like any other") {
     freshFolder();
     writeFile("reference.xml", kReference);
     const std::string light =
@@ -255,7 +255,7 @@ TEST_CASE("what was handed out with the task need not be handed in") {
     for (const json& one : without.at("diagnostics"))
         if (one.at("code") == "grade.lent") noted.insert(one.at("message"));
     CHECK(noted.size() == 2);
-    // Its own file of that name is taken, and it is another picture.
+    // Its own file of that name is used, and it is another image.
     CHECK(gradeOf(report, "own").at("points") < 100.0);
 
     writeFile("strict.json", R"({"lend": false})");
@@ -374,7 +374,7 @@ TEST_CASE("an entry that holds nothing to grade is one row, again and again") {
             CHECK(gradeOf(report, id).at("points") == 100.0);
         for (const char* id : {"torn.zip", "torn.png"})
             CHECK(gradeOf(report, id).at("tasks").at(0).at("grade").at("refused") == true);
-        // What an earlier version kept of an empty submission, and what is no grade.
+        // The cache entry of an earlier version for an empty submission, and one that is no grade.
         for (const auto& entry : fs::directory_iterator(folder() / "out" / "results"))
             std::ofstream(entry.path(), std::ios::binary) << (round == 0 ? "\n" : "[]\n");
     }

@@ -9,7 +9,7 @@
 /// Starting the service, and asking whether it is ready.
 using namespace farol::test;
 
-TEST_CASE("scripts/run reports a port that is taken before it builds, and names --port") {
+TEST_CASE("scripts/run reports a port in use before it builds, and names --port") {
     freshFolder();
     Service service;
     const std::string port = service.url().substr(service.url().rfind(':') + 1);
@@ -22,14 +22,14 @@ TEST_CASE("scripts/run reports a port that is taken before it builds, and names 
         INFO(words);
         CHECK(std::system(("FAROL_SKIP_SETUP=1 " + words + " > '" + log + "' 2>&1").c_str()) != 0);
         const std::string text = readFile("run.txt");
-        CHECK_THAT(text, Catch::Contains("port " + port + " of 127.0.0.1 is taken"));
+        CHECK_THAT(text, Catch::Contains("port " + port + " of 127.0.0.1 is in use"));
         CHECK_THAT(text, Catch::Contains("scripts/run --port"));
         CHECK_THAT(text, !Catch::Contains("configuring"));
     }
     CHECK(service.stop() == 0);
 }
 
-TEST_CASE("serve is healthy until it is told to end, and ends with exit code 0") {
+TEST_CASE("serve is healthy until it is asked to end, and ends with exit code 0") {
     freshFolder();
     Service service;
     const Outcome up = run("health " + service.url());

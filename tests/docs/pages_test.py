@@ -155,8 +155,11 @@ class text(unittest.TestCase):
                 continue  # tests/golden/docs_test.cpp; the test above
             if name not in UNCOMPARED:
                 self.assertIn(name, shown, "no page shows it, so no command makes it")
+        linked = {((ROOT / page).parent / target).resolve() for page in documents()
+                  for target in re.findall(r"(?:\]\(|src=\")([^)\s\"]+)", (ROOT / page).read_text())}
         for name in UNCOMPARED:
             self.assertTrue((ROOT / name).exists(), name)
+            self.assertIn((ROOT / name).resolve(), linked, f"no page shows {name}")
 
     def test_each_page_says_which_question_it_answers(self):
         for page in of_docs():

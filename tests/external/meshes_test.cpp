@@ -29,7 +29,7 @@ std::string bytesOf(const fs::path& path) {
     return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// What the text of an ascii PLY profile says, read without the project's reader.
+/// The points of an ascii PLY profile, read without the project's reader.
 struct Profile {
     int points = 0;
     double low = 1e9, high = -1e9, radius = 0;

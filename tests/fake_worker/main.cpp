@@ -105,7 +105,7 @@ std::string replyTo(const std::string& deed) {
     return done(image());
 }
 
-/// What the document of the job, or its archive, names.
+/// The file that the document of the job, or its archive, names.
 std::string deedOf(std::string_view message) {
     Unpacker unpacker(message);
     std::string task;

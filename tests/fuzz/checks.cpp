@@ -42,7 +42,7 @@ bool finite(const glm::vec3& v) {
 void checkDiagnostics(const Diagnostics& diagnostics, std::string_view file,
                       std::string_view text) {
     // A message may quote a name or a value, shortened; nothing makes it longer than this.
-    constexpr std::size_t kLongest = 2000;
+    constexpr std::size_t kMaxBytes = 2000;
     const std::vector<std::size_t> lengths = lengthsOf(text, file.ends_with(".xml"));
     for (const Diagnostic& one : diagnostics) {
         const std::string what = one.code + " \"" + one.message.substr(0, 200) + "\" at line " +
@@ -50,7 +50,7 @@ void checkDiagnostics(const Diagnostics& diagnostics, std::string_view file,
                                  std::to_string(one.where.column);
         require(isCode(one.code), "no code: " + what);
         require(!one.message.empty(), "no message: " + what);
-        require(one.message.size() <= kLongest, "a message without bound: " + what);
+        require(one.message.size() <= kMaxBytes, "a message without bound: " + what);
         require(one.where.line >= 0 && one.where.column >= 0, "a negative place: " + what);
         require(one.where.line > 0 || one.where.column == 0, "a column without a line: " + what);
         if (!file.empty() && one.where.file == file && one.where.line > 0) {

@@ -7,7 +7,7 @@ namespace farol::fuzz {
 
 struct CraftedMesh {
     std::string name;  ///< its ending is that of its format
-    std::string kind;  ///< what is wrong with it
+    std::string kind;  ///< the defect
     std::string bytes;
 };
 

@@ -52,7 +52,7 @@ struct Settings {
     std::vector<std::string> corpus;
 };
 
-/// What the child leaves to the parent, whatever becomes of it.
+/// Data of the child that the parent can read after any end of it.
 struct Shared {
     std::uint64_t runs, kept, reached;
     double cpuSeconds;
@@ -141,7 +141,7 @@ std::string describe(int status, const Settings& settings) {
             return "no end within " + std::to_string(settings.patience) + " s of CPU time";
         return std::string("signal ") + strsignal(signal);
     }
-    if (WEXITSTATUS(status) == kFindingCode) return "a broken promise, said above";
+    if (WEXITSTATUS(status) == kFindingCode) return "a broken promise, reported above";
     return "exit code " + std::to_string(WEXITSTATUS(status));
 }
 
@@ -234,7 +234,7 @@ int run(const Settings& settings, int count, char** words) {
                 static_cast<unsigned long long>(shared.reached));
     if (WIFEXITED(status) && WEXITSTATUS(status) == 0 && shared.finished) return 0;
     if (shared.finished) {
-        std::printf("finding at the end of the run: %s (a leak has no input of its own)\n",
+        std::printf("finding at the end of the run: %s (a leak has no single input)\n",
                     describe(status, settings).c_str());
         return 1;
     }

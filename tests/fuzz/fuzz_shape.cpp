@@ -14,13 +14,13 @@ using Words = std::vector<std::string>;
 using generator::ShapeCall;
 
 /// Meshes up to here are made: finer ones have the same faults.
-constexpr std::size_t kMostTriangles = 20'000;
+constexpr std::size_t kMaxTriangles = 20'000;
 
 void make(const ShapeCall& call, const scene::Assets& assets) {
     try {
         const std::size_t most = generator::countTriangles(call, assets);
         require(most <= generator::kMaxTriangles, "more triangles than are allowed");
-        if (most > kMostTriangles) return;
+        if (most > kMaxTriangles) return;
         for (const auto uv :
              {scene::UvLayout::face, scene::UvLayout::atlas, scene::UvLayout::layout2017}) {
             const generator::Mesh mesh = generator::generate(call, assets, uv);
@@ -36,7 +36,7 @@ void make(const ShapeCall& call, const scene::Assets& assets) {
 void refine(const ShapeCall& call, const scene::Assets& assets) {
     scene::Model model;
     model.source = {scene::ModelSource::Kind::shape, "", call};
-    if (!generator::isOpen(model)) return;
+    if (!generator::isAdaptive(model)) return;
     for (const double error : {1e-12, 0.25, 1e12}) {
         try {
             const ShapeCall fine = generator::refine(model, assets, {error, 8});

@@ -1,5 +1,5 @@
 // Reads crafted mesh files by every importer:
-//   run_crafted [--each] COUNT      all in one process, or each in a process of its own
+//   run_crafted [--each] COUNT      all in one process, or each in a separate process
 // Exit code 1: some of them end the process, take more than kSeconds of its CPU time, or make a
 // mesh that breaks its promises; what they are is printed.
 #include <sys/resource.h>

@@ -7,7 +7,7 @@
 #include "scene/files/assets.h"
 #include "scene/read/reader.h"
 
-/// What the targets that read scenes share.
+/// Shared by the targets that read scenes.
 namespace farol::fuzz {
 
 /// Elements, attributes and words of the language, from its tables, and markup.

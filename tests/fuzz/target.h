@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-/// What a fuzz target is made of. The same file links to our driver (driver.cpp) and, built by
+/// The parts of a fuzz target. The same file links to our driver (driver.cpp) and, built by
 /// clang with -fsanitize=fuzzer, to libFuzzer.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
@@ -27,7 +27,7 @@ inline void require(bool holds, const std::string& message) {
 }
 
 /// Tells the driver what an input reached (a diagnostic's code, a format): inputs that reach a new
-/// set of things are kept as seeds. libFuzzer watches the code itself and is told nothing.
+/// set of things are kept as seeds. libFuzzer watches the code itself and does not need it.
 void reached(std::string_view what);
 
 struct Target {

@@ -55,7 +55,7 @@ struct Drawing {
     std::string name, options;
 };
 
-/// What the comments at an example's head ask for, as scripts/docs-pictures reads them.
+/// The settings in the comments at an example's head, as scripts/docs-pictures reads them.
 std::vector<Drawing> drawings(const std::string& name, const std::string& xml) {
     static const std::regex kPicture(R"(<!-- picture ([a-z0-9-]+):(.*) -->)");
     static const std::regex kOptions(R"(<!-- options:(.*) -->)");
@@ -176,7 +176,7 @@ TEST_CASE("every example of the documentation is valid by the schema") {
     CHECK(status == 0);
 }
 
-TEST_CASE("the reference shows each example and picture, and says of them what they hold") {
+TEST_CASE("the reference shows each example and image, and describes them") {
     const std::string text = reference();
     std::set<std::string> named;
     static const std::regex kFile(R"(\]\(((?:examples|pictures)/[^)]+)\))");

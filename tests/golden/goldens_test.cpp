@@ -21,7 +21,7 @@ namespace {
 
 const fs::path kSource(farol::test::kSourceDir);
 const fs::path kGolden = kSource / "tests" / "golden";
-constexpr int kLongestSide = 320;  // px
+constexpr int kMaxSide = 320;  // px
 
 struct Golden {
     std::string scene;
@@ -69,7 +69,7 @@ render::Job jobOf(const std::string& scene, double timeS) {
     job.assets = std::make_shared<scene::FolderAssets>(folder.string());
     job.options.timeS = timeS;
     const render::SceneReport report = render::inspect(job);
-    const double scale = static_cast<double>(kLongestSide) / std::max(report.width, report.height);
+    const double scale = static_cast<double>(kMaxSide) / std::max(report.width, report.height);
     job.options.width = static_cast<int>(std::lround(report.width * scale));
     job.options.height = static_cast<int>(std::lround(report.height * scale));
     return job;

@@ -7,7 +7,7 @@
 
 #include "classroom.h"
 
-// What the grader makes of mistakes and of harmless changes. FAROL_CALIBRATION names a file for the
+// Grades of mistakes and of harmless changes. FAROL_CALIBRATION names a file for the
 // table of docs/grading.md (scripts/grade-calibration).
 using namespace farol;
 using namespace farol::test;

@@ -129,7 +129,7 @@ TEST_CASE("a class has the marks that a fair teacher gives") {
     for (const Mark& a : marks)
         for (const Mark& b : marks) {
             constexpr double kClear = 5.0;
-            // What has no mark is out of its band, and stands in no order.
+            // A submission without a mark is out of its band, and has no place in the order.
             if (a.isUngradable || b.isUngradable || !a.points || !b.points ||
                 a.least <= b.most + kClear)
                 continue;

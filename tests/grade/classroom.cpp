@@ -145,7 +145,7 @@ std::vector<Placed> modelsOf(scene::Scene& scene) {
 
 bool replaceMesh(Work& work, scene::Model& model, const std::string& file,
                  void (*change)(generator::MeshArrays&)) {
-    if (generator::isOpen(model) || model.revolve) return false;
+    if (generator::isAdaptive(model) || model.revolve) return false;
     generator::MeshArrays arrays = generator::load(model, *work.assets).arrays();
     change(arrays);
     work.files[file] = generator::io::encodeMesh(generator::Mesh(std::move(arrays)),

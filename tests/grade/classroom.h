@@ -10,7 +10,7 @@
 #include "grade/rubric/grader.h"
 #include "scene/scene.h"
 
-/// What students hand in: reference scenes, the mistakes people make with them, and changes that
+/// Submissions of students: reference scenes, the mistakes people make with them, and changes that
 /// are none.
 namespace farol::test {
 
@@ -57,7 +57,7 @@ struct Placed {
 std::vector<Placed> modelsOf(scene::Scene& scene);
 
 /// Puts a mesh file in the place of a model's mesh, as `change` makes it. False where the model has
-/// no mesh of its own to write (open divisions, profiles).
+/// no mesh to write (open divisions, profiles).
 bool replaceMesh(Work& work, scene::Model& model, const std::string& file,
                  void (*change)(generator::MeshArrays&));
 /// Returns the name of the model's shape; "" where it is none.

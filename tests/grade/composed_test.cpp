@@ -196,7 +196,7 @@ TEST_CASE("planted causes are found with their lines, and marks follow their sev
                 }
             }
             for (std::size_t c = 0; c < grade.causes.size(); ++c) {
-                if (!grade.causes[c].isSeen && !isUsed[c]) continue;  // told, and costs nothing
+                if (!grade.causes[c].isSeen && !isUsed[c]) continue;  // reported, and costs nothing
                 ++reported;
                 right += isUsed[c] ? 1 : 0;
                 if (!isUsed[c]) log += "  not planted: " + grade.causes[c].message + "\n";
@@ -220,7 +220,7 @@ TEST_CASE("planted causes are found with their lines, and marks follow their sev
                 ++pairs;
                 inverted += a.loss <= b.loss ? 1 : 0;
             }
-        // What was handed out: everything but the objects.
+        // The files that were handed out: everything but the objects.
         Work skeleton = open(reference);
         skeleton.scene.groups.clear();
         skeleton.scene.groups.emplace_back();

@@ -140,7 +140,7 @@ Result siblings(Work& work) {
     return written(work);
 }
 
-/// Every model in a group of its own.
+/// Every model in a separate group.
 Result splitGroups(Work& work) {
     bool any = false;
     const std::function<void(scene::Group&)> visit = [&](scene::Group& group) {

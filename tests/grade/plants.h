@@ -6,7 +6,7 @@
 
 #include "sheet.h"
 
-/// What plants share.
+/// Shared by plants.
 namespace farol::test {
 
 using Share = std::optional<double>;

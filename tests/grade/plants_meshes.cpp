@@ -59,7 +59,7 @@ Share otherShape(Sheet& s, Work&, Dice& d, int p) {
     return done ? Share(oneModel(s)) : done;
 }
 
-/// Puts a mesh of its own in the place of a shape: written anew, changed.
+/// Replaces a shape by a separate mesh: written anew, changed.
 Share ownMesh(Sheet& s, Work& work, Dice& d, int p, bool textured,
               const std::function<bool(const std::string& shape)>& fits,
               const std::function<void(generator::MeshArrays&)>& change) {

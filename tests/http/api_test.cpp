@@ -1,4 +1,4 @@
-// What each route answers, with a stand-in for the renderer.
+// The answer of each route, with a stand-in for the renderer.
 #include <catch2/catch.hpp>
 #include <condition_variable>
 #include <thread>
@@ -219,7 +219,7 @@ TEST_CASE("a wrong option is named with its range, and all of them at once") {
     CHECK(near.json().value("detail", "").find("\"width\"") != std::string::npos);
 }
 
-TEST_CASE("the methods of a path are told") {
+TEST_CASE("the methods of a path are reported") {
     FakeServer server;
     CHECK(get(server.port(), "/v1/render").header("allow") == "POST, OPTIONS");
     CHECK(post(server.port(), "/livez", "x").header("allow") == "GET, HEAD, OPTIONS");
@@ -404,9 +404,9 @@ TEST_CASE("the folder is listed: ids, facts, and what cannot be read") {
     const int seen = server.backend.inspections;
     get(server.port(), "/v1/scenes");
     CHECK(server.backend.inspections == seen);  // known until a file changes
-    folder.write("plain.xml", "<world>mended</world>");
+    folder.write("plain.xml", "<world>changed</world>");
     CHECK(get(server.port(), "/v1/scenes").json()["scenes"][2]["valid"] == true);
-    CHECK(get(server.port(), "/v1/scenes/plain/source").body == "<world>mended</world>");
+    CHECK(get(server.port(), "/v1/scenes/plain/source").body == "<world>changed</world>");
 }
 
 TEST_CASE("more scenes than a page holds are paged") {
@@ -453,7 +453,7 @@ TEST_CASE("each request is one line of JSON in the log") {
     CHECK(found);
 }
 
-TEST_CASE("not ready is told while alive") {
+TEST_CASE("not ready is reported while alive") {
     FakeServer server;
     server.backend.onCheck = [] { throw std::runtime_error("wrong colours"); };
     const Answer answer = get(server.port(), "/readyz");

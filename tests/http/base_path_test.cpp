@@ -1,4 +1,4 @@
-// The service below a path of its own, behind a proxy that keeps the path or takes it off.
+// The service below a base path, behind a proxy that keeps the path or removes it.
 #include <catch2/catch.hpp>
 
 #include "fixture.h"

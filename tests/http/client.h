@@ -50,7 +50,7 @@ struct Ask {
     std::string body;
 };
 
-/// One request on a connection of its own; Content-Length is added where there is a body.
+/// One request on a separate connection; Content-Length is added where there is a body.
 Answer ask(int port, const Ask& request);
 Answer get(int port, const std::string& target,
            std::vector<std::pair<std::string, std::string>> headers = {});

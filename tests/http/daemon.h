@@ -14,15 +14,15 @@
 
 namespace farol::test {
 
-/// What a Daemon is started with.
+/// The options of a Daemon.
 struct Start {
-    rlim_t fileBytes = 0;    ///< no file that it writes may grow beyond; 0: no limit
-    rlim_t descriptors = 0;  ///< soft and hard limit; 0: the test's own
+    rlim_t fileBytes = 0;    ///< largest file that it may write; 0: no limit
+    rlim_t descriptors = 0;  ///< soft and hard limit; 0: that of the test
     std::string closed{};    ///< of "0", "1" and "2", the descriptors that are closed
-    int stderrFd = -1;       ///< instead of nowhere
+    int stderrFd = -1;       ///< instead of /dev/null
 };
 
-/// `farol serve` with these arguments; its stdout is read, its stderr goes nowhere.
+/// `farol serve` with these arguments; its stdout is read, its stderr goes to /dev/null.
 class Daemon {
   public:
     explicit Daemon(const std::vector<std::string>& arguments, const Start& start = {}) {

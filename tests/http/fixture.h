@@ -18,7 +18,7 @@
 namespace farol::test {
 
 /// Stands in for the renderer where a test is about HTTP: its answers are plain and it can be
-/// told to be busy, broken or slow. Requests reach it packed, as they reach a worker.
+/// set to be busy, broken or slow. Requests reach it packed, as they reach a worker.
 class FakeBackend final : public worker::Backend {
   public:
     FakeBackend();
@@ -51,7 +51,7 @@ class FakeBackend final : public worker::Backend {
     std::map<std::string, std::function<std::any(worker::Unpacker&)>> tasks_;
 };
 
-/// The service on a socket of its own, as `farol serve` composes it; it is served at once.
+/// The service on a separate socket, as `farol serve` composes it; it is served at once.
 class TestServer {
   public:
     /// `backend` outlives it. Throws as the listener and the service do.
@@ -95,7 +95,7 @@ class FakeServer {
     std::unique_ptr<TestServer> server_;
 };
 
-/// A folder of its own under the tests' output, removed first and last.
+/// A separate folder under the tests' output, removed first and last.
 class TemporaryFolder {
   public:
     explicit TemporaryFolder(const std::string& name);

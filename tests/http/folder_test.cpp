@@ -36,7 +36,7 @@ void makeSocket(const std::string& path) {
     const int fd = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
     sockaddr_un address{};
     address.sun_family = AF_UNIX;
-    // Names of sockets are short: it is made in the folder of its own.
+    // Names of sockets are short: it is created from within the folder.
     const fs::path before = fs::current_path();
     fs::current_path(fs::path(path).parent_path());
     fs::path(path).filename().string().copy(address.sun_path, sizeof address.sun_path - 1);

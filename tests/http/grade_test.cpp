@@ -3,7 +3,7 @@
 #include "fixture.h"
 #include "server/routes/subject.h"
 
-// POST /v1/grade: what is taken and what is refused, before any worker sees it.
+// POST /v1/grade: accepted and refused requests, before any worker sees them.
 using namespace farol;
 using namespace farol::test;
 

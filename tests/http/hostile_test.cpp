@@ -1,4 +1,4 @@
-// What strangers may send: each case has its status and its code, no worker dies of it, and none
+// Hostile requests: each case has its status and its code, no worker dies of it, and none
 // takes more memory than it may.
 #include <catch2/catch.hpp>
 #include <fstream>

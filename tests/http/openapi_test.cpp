@@ -18,7 +18,7 @@ struct Operation {
     std::set<std::string> statuses, parameters;
 };
 
-/// What the test needs of the document, read by its indentation (two blanks a level).
+/// The parts of the document that the test needs, read by its indentation (two blanks a level).
 struct Document {
     std::map<std::pair<std::string, std::string>, Operation> operations;  ///< by path and method
     std::map<std::string, std::string> parameters;                        ///< name -> its lines

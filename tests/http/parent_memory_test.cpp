@@ -1,4 +1,4 @@
-// What JSON and files from outside cost the service's own process.
+// Memory that JSON and files from outside take in the service's own process.
 #include <arpa/inet.h>
 #include <netinet/in.h>
 #include <sys/socket.h>

@@ -1,4 +1,4 @@
-// What stands round the pictures: errors as pictures, turntables, models, search; then the same
+// Requests about images: errors as pictures, turntables, models, search; then the same
 // with the real renderer.
 #include <catch2/catch.hpp>
 

@@ -1,4 +1,4 @@
-// What the HTTP library of Debian 12 (cpp-httplib 0.11.4) gets wrong, and how connections behave.
+// Errors of the HTTP library of Debian 12 (cpp-httplib 0.11.4), and how connections behave.
 #include <catch2/catch.hpp>
 #include <chrono>
 #include <thread>
@@ -276,7 +276,7 @@ TEST_CASE("a head may come byte by byte, and its end before the answer") {
     CHECK(half.closedByServer());
 }
 
-TEST_CASE("connections beyond the bound are told so") {
+TEST_CASE("connections over the limit get a response that says so") {
     FakeServer server({}, [](server::http::ListenOptions& listen) { listen.maxConnections = 3; });
     std::atomic<bool> release{false};
     server.backend.onRender = [&](const render::Job&) {
@@ -363,7 +363,7 @@ TEST_CASE("stopping ends what is being served and takes nothing new") {
     CHECK(answer.closed);
 }
 
-TEST_CASE("a port that is taken is an error, not a silent share") {
+TEST_CASE("a port in use is an error, not a silent share") {
     FakeServer server;
     server::http::ListenOptions listen;
     listen.port = server.port();

@@ -108,7 +108,7 @@ TEST_CASE("serve says where it listens, draws, and ends with 0 on a signal") {
     }
 }
 
-TEST_CASE("a render in flight is answered when the program is told to end") {
+TEST_CASE("a render in flight is answered when the program is asked to end") {
     Daemon daemon({"--port", "0"});
     const int port = portIn(daemon.firstLine());
     REQUIRE(get(port, "/readyz").status == 200);
@@ -150,7 +150,7 @@ TEST_CASE("a flag wins over the environment, the environment over the file") {
     CHECK(get(port, "/readyz").json()["workers"] == 1);
 }
 
-TEST_CASE("a client that asks too often is told when to come back") {
+TEST_CASE("a client that asks too often learns when to come back") {
     Daemon daemon({"--port", "0", "--workers", "1", "--rate", "1", "--burst", "3"});
     const int port = portIn(daemon.firstLine());
     for (int i = 0; i < 3; ++i) CHECK(get(port, "/v1/primitives").status == 200);
@@ -158,7 +158,7 @@ TEST_CASE("a client that asks too often is told when to come back") {
     CHECK(refused.status == 429);
     CHECK(refused.code() == "limit.rate");
     CHECK(refused.header("retry-after") == "1");
-    CHECK(get(port, "/livez").status == 200);  // whoever watches the service is not a client of it
+    CHECK(get(port, "/livez").status == 200);  // health checks do not count
 }
 
 TEST_CASE("serve that cannot listen says so and fails") {
@@ -245,7 +245,7 @@ TEST_CASE("a service that drains is unready and serves until a second signal") {
     CHECK(daemon.exitCode() == 0);
 }
 
-TEST_CASE("the service answers for loopback names, and for others where it is told") {
+TEST_CASE("the service answers for loopback names, and for others that are configured") {
     const auto statusOf = [](int port, const std::string& host) {
         RawClient client(port);
         client.send("GET /version HTTP/1.1\r\nHost: " + host + "\r\n\r\n");

@@ -1,4 +1,4 @@
-// What pages of other sites make browsers send (DNS rebinding, requests across origins).
+// Requests that pages of other sites make browsers send (DNS rebinding, across origins).
 #include <catch2/catch.hpp>
 
 #include "fixture.h"

@@ -112,7 +112,7 @@ TEST_CASE("clients that stall in the middle of a request hold no thread") {
             CHECK(client->read().status == 200);
         }
     }
-    // One that was told to go on with its body, and does not.
+    // A client that gets "100 Continue" and does not send its body.
     Clients clients = connected(port, kSlow,
                                 "POST /v1/render HTTP/1.1\r\nHost: x\r\nContent-Type: text/xml\r\n"
                                 "Expect: 100-continue\r\nContent-Length: 8\r\n\r\n");
@@ -190,7 +190,7 @@ TEST_CASE("a client that never reads its answer is given up, and so is one that 
     CHECK(becomes(port, "farol_http_connections_closed_total{reason=\"slow_body\"}", 1));
 }
 
-TEST_CASE("a service that is told to end delivers answers and bodies that are under way") {
+TEST_CASE("a service that is asked to end delivers answers and bodies that are under way") {
     std::unique_ptr<FakeServer> owner;
     const int port = patient(owner).port();
     RawClient reader(port), sender(port), late(port), idle(port);

@@ -233,7 +233,7 @@ TEST_CASE("uploads outlive the daemon, whatever ends it") {
     CHECK(get(port, at + "/source").body == scene);
 }
 
-TEST_CASE("a disk that is full is said to be, and nothing is lost or half there") {
+TEST_CASE("a full disk is reported, and nothing is lost or half there") {
     const TemporaryFolder folder("http-store-full");
     const std::string scene = "<world><group><models><model file=\"box_2_1.3d\"/></models></group>";
     // No file of this process may grow beyond 64 blocks of 1 KiB: what the disk says when it is

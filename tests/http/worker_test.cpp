@@ -193,7 +193,7 @@ TEST_CASE("a spare takes a lost worker's place before it could have been started
     pool.run<CheckTask>({});
     std::vector<pid_t> both;
     while ((both = childrenBut()).size() < 2) std::this_thread::sleep_for(1ms);
-    // They are started one after the other, and the first is taken.
+    // They are started one after the other, and the first is used.
     kill(*std::min_element(both.begin(), both.end()), SIGKILL);
     while (restarts(pool, "idle") == 0) std::this_thread::sleep_for(1ms);
     CHECK(codeOf([&] { pool.run<RenderTask>({boxJob()}); }) == "done");
@@ -209,7 +209,8 @@ TEST_CASE("what a worker prints becomes a line of the log") {
         lines.push_back(line);
     });
     {
-        worker::Said said([&](const std::string& line) { logger.event("worker-said", line); });
+        worker::WorkerOutput said(
+            [&](const std::string& line) { logger.event("worker-said", line); });
         const std::string text = "libpng error: \"bad\" IDAT\nunfinished";
         REQUIRE(write(said.descriptor(), text.data(), text.size()) ==
                 static_cast<ssize_t>(text.size()));
@@ -228,7 +229,7 @@ TEST_CASE("a worker that prints without end costs the parent a bounded amount of
     const auto begin = std::chrono::steady_clock::now();
     std::chrono::duration<double> took{0};
     {
-        worker::Said said([](const std::string&) {});
+        worker::WorkerOutput said([](const std::string&) {});
         const std::string flood(1 << 16, 'x');
         while (accepted < (std::size_t{64} << 20U) && took < 2s) {
             const ssize_t written = write(said.descriptor(), flood.data(), flood.size());
@@ -248,7 +249,7 @@ TEST_CASE("an upload's worker ends after its job when uploads are isolated") {
         while (restarts(pool, reason) < count || pool.state().workers == 0)
             std::this_thread::sleep_for(1ms);
     };
-    // The worker and its spare are started one after the other, and the first is taken.
+    // The worker and its spare are started one after the other, and the first is used.
     std::vector<pid_t> both;
     while ((both = childrenBut()).size() < 2) std::this_thread::sleep_for(1ms);
     const pid_t first = *std::min_element(both.begin(), both.end());
@@ -343,7 +344,7 @@ TEST_CASE("workers end with the pool") {
     for (const pid_t pid : pids) CHECK_FALSE(exists(pid));
 }
 
-TEST_CASE("a program that is no worker is said to be none") {
+TEST_CASE("a program that is no worker is reported as such") {
     PoolOptions wrong = options();
     wrong.worker.program = "/bin/false";
     std::atomic<int> said{0};

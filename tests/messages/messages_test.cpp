@@ -22,7 +22,7 @@ bool has(const std::string& text, const char* pattern) {
     return std::regex_search(text, std::regex(pattern));
 }
 
-/// What is wrong with a rendered message; empty where nothing is.
+/// Returns the rule that a rendered message breaks; "" where there is none.
 std::string faultOf(const std::string& text, bool isPart) {
     if (text.empty()) return "is empty";
     // Names of headers and formats keep their capitals: "Content-Length", "PNG".

@@ -5,7 +5,7 @@
 #include "image/image.h"
 #include "render/renderer.h"
 
-/// Small scenes drawn at 64 x 64 px, and what can be said of their pictures.
+/// Small scenes drawn at 64 x 64 px, and properties of their images.
 namespace farol::stress {
 
 inline constexpr const char* kCamera =
@@ -19,7 +19,7 @@ std::string world(const std::string& models, const std::string& camera = "");
 /// A sphere, a cone and a box, all of it moved along X together with its camera.
 std::string still(double away);
 
-/// Draws with aa=1 unless said otherwise.
+/// Draws with aa=1 by default.
 image::Image draw(const std::string& xml, render::PictureOptions options = {});
 /// The code of the error that drawing ends in; "" where it does not.
 std::string codeOf(const std::string& xml);

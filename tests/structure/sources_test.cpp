@@ -55,7 +55,7 @@ std::vector<Source> sources() {
     return all;
 }
 
-/// What follows #include, without its quotes or brackets.
+/// Returns the path of an #include without its quotes or brackets.
 std::vector<Include> includesOf(const Source& source) {
     std::vector<Include> all;
     for (std::size_t i = 0; i < source.lines.size(); ++i) {

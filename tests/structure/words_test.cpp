@@ -11,8 +11,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
+/// Files that list or quote the words.
+constexpr const char* kLists[] = {"tests/messages/messages_test.cpp",
+                                  "tests/structure/words_test.cpp"};
 /// Folders that are not reworded yet.
-constexpr const char* kNotReworded[] = {"generator/", "grade/", "render/", "scene/"};
+constexpr const char* kNotReworded[] = {"grade/", "scene/"};
 
 /// The comment of a line without its quotations, and its string literals.
 struct Prose {
@@ -42,7 +45,8 @@ Prose proseOf(const std::string& line) {
 /// The first banned word of a line; "" where there is none.
 std::string bannedIn(const std::string& line) {
     static const std::regex kBanned(
-        "(^|[^-\\w])(told|said|says of|mend(s|ed|ing)?|cures?|lends?|lent|(is|are) taken|cannot be "
+        "(^|[^-.\\w])(told|said|says of|mend(s|ed|ing)?|cures?|lends?|lent|(is|are) taken|cannot "
+        "be "
         "had|of "
         "(its|their) own|by hand of|aloud|hold to|the likes|so that it)\\b",
         std::regex::icase);
@@ -62,17 +66,18 @@ bool beginsWithWhat(const std::string& line) {
 }  // namespace
 
 TEST_CASE("comments and literals have no banned word, and few begin with \"what\"") {
-    int comments = 0, whats = 0;
-    for (const char* floor :
-         {"core", "image", "scene", "generator", "render", "grade", "worker", "server", "cli"})
+    for (const char* folder : {"bench", "cli", "core", "generator", "grade", "image", "render",
+                               "scene", "server", "tests", "worker"}) {
+        int comments = 0, whats = 0;
         for (const auto& entry :
-             fs::recursive_directory_iterator(fs::path(farol::test::kSourceDir) / floor)) {
+             fs::recursive_directory_iterator(fs::path(farol::test::kSourceDir) / folder)) {
             const std::string ending = entry.path().extension().string();
             if (ending != ".cpp" && ending != ".h") continue;
             const std::string name =
                 fs::relative(entry.path(), farol::test::kSourceDir).generic_string();
-            if (std::any_of(std::begin(kNotReworded), std::end(kNotReworded),
-                            [&](const char* prefix) { return name.starts_with(prefix); }))
+            const auto isPrefix = [&](const char* prefix) { return name.starts_with(prefix); };
+            if (std::any_of(std::begin(kLists), std::end(kLists), isPrefix) ||
+                std::any_of(std::begin(kNotReworded), std::end(kNotReworded), isPrefix))
                 continue;
             std::ifstream in(entry.path());
             int number = 0;
@@ -84,15 +89,17 @@ TEST_CASE("comments and literals have no banned word, and few begin with \"what\
                 if (bannedIn(line) != "") CHECK(bannedIn(line) == "");
             }
         }
-    CHECK(comments > 1000);
-    CHECK(50 * whats < comments);  // under 2 %
+        INFO(folder << ": " << whats << " of " << comments);
+        CHECK(50 * whats <= comments);  // at most 2 %
+    }
 }
 
 TEST_CASE("the check of words finds them outside quotations alone") {
     CHECK(bannedIn("// It is told here.") == "told");
     CHECK(bannedIn("log(\"is taken\");") == "is taken");
     CHECK(bannedIn("// The word \"told\" is banned, and so is `lent`.").empty());
-    CHECK(bannedIn("#include \"worker/said.h\"").empty());
+    CHECK(bannedIn("#include \"worker/worker.h\"").empty());
+    CHECK(bannedIn("code == \\" grade.lent\\"").empty());
     CHECK(bannedIn("url = \"http://a\";  // of its own") == "of its own");
     CHECK(beginsWithWhat("    /// What a worker keeps."));
     CHECK_FALSE(beginsWithWhat("// Somewhat else."));

@@ -13,7 +13,7 @@
 namespace farol::bench {
 namespace {
 
-/// What a dialect of the field writes most often: twice as many divisions round as along, one
+/// The divisions that a dialect of the field writes most often: twice as many divisions round as along, one
 /// stack where the side is straight, a quarter a patch (four make a turn).
 int divisionsOf(const std::string& shape, std::size_t place, int divisions) {
     if (shape == "patch") return std::max(1, divisions / 4);

@@ -40,7 +40,7 @@ class Torus final : public Shape {
                 if (std::isfinite(step) && std::abs(step) < 0.1 * r) s -= step;
             }
             const glm::dvec3 out = fromCircle(o + s * d);
-            // What is not on the surface after that was a touching root lost in rounding.
+            // A root that is not on the surface after that was a touching one lost in rounding.
             if (std::abs(glm::length(out) - r) > 1e-10) continue;
             nearest.offer(ray, shift + s * ring_ / length, out);
         }

@@ -8,7 +8,7 @@
 
 namespace farol::reference {
 
-/// What one ray sees.
+/// The result of one ray.
 struct Sample {
     glm::dvec3 color{0.0};
     int id = 0;          ///< 0: the background

@@ -14,13 +14,13 @@
 
 namespace farol::reference {
 
-/// What a scene refers to, by the names that it uses.
+/// The files of a scene, by the names that it uses.
 struct Files {
     std::map<std::string, Pixels> pictures;    ///< textures, decoded
     std::map<std::string, std::string> texts;  ///< patch files and ascii profiles
 };
 
-/// How the picture is taken; what a scene asks for itself is overridden.
+/// The settings of the image, which override those of the scene.
 struct Options {
     int width = 300, height = 300;  ///< px, at least 1
     double timeS = 0.0;

@@ -33,7 +33,7 @@ std::string outcome(const std::string& text, const JsonLimits& limits = kSmall) 
 }
 
 /// Heap in use. The largest that the parse can hold is compared with it through the limits alone:
-/// what a refused text leaves behind shows here.
+/// leftovers of a refused text show here.
 std::size_t heapBytes() {
     const struct mallinfo2 info = mallinfo2();
     return info.uordblks + info.hblkhd;

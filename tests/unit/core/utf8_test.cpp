@@ -6,7 +6,7 @@
 
 using namespace farol;
 
-TEST_CASE("UTF-8 is told from other bytes, which are replaced one by one") {
+TEST_CASE("UTF-8 is distinguished from other bytes, which are replaced one by one") {
     struct Case {
         std::string text, valid;
     };

@@ -1,5 +1,5 @@
-// What is said of a shape's arguments: the argument by the name that the user meant, its range,
-// what was written, and how the shape is written.
+// Messages about a shape's arguments: the argument by the name that the user meant, the value, the
+// range, and the usage of the shape.
 #include <catch2/catch.hpp>
 
 #include "tests/unit/generator/checks.h"
@@ -14,43 +14,45 @@ struct Row {
 
 const std::vector<Row> kRows = {
     {"box 2 0", "shape.argument",
-     "the argument DIV of box must be a whole number from 1 to 100000, not \"0\"; usage: box X "
+     "the argument DIV of box is \"0\"; expected a whole number in 1 to 100000; usage: box X "
      "[DIV], or box X Y Z [DIV]"},
     {"box 2 1.5", "shape.argument",
-     "the argument DIV of box must be a whole number from 1 to 100000, not \"1.5\"; usage: box X "
+     "the argument DIV of box is \"1.5\"; expected a whole number in 1 to 100000; usage: box X "
      "[DIV], or box X Y Z [DIV]"},
     {"cube 2 -3", "shape.argument",
-     "the argument DIV of box must be a whole number from 1 to 100000, not \"-3\"; usage: box X "
+     "the argument DIV of box is \"-3\"; expected a whole number in 1 to 100000; usage: box X "
      "[DIV], or box X Y Z [DIV]"},
     {"box 2 0 3", "shape.argument",
-     "the argument Y of box must be a number from 1e-06 to 1000000000, not \"0\"; usage: box X "
+     "the argument Y of box is \"0\"; expected a number in 1e-06 to 1000000000; usage: box X "
      "[DIV], or box X Y Z [DIV]"},
     {"box 1 2 3 0", "shape.argument",
-     "the argument DIV of box must be a whole number from 1 to 100000, not \"0\"; usage: box X "
+     "the argument DIV of box is \"0\"; expected a whole number in 1 to 100000; usage: box X "
      "[DIV], or box X Y Z [DIV]"},
     {"box", "shape.argument",
      "the argument X of box is missing; usage: box X [DIV], or box X Y Z [DIV]"},
     {"plane 1,5", "shape.argument",
-     "the argument SIZE of plane must be a number from 1e-06 to 1000000000, not \"1,5\" (write "
+     "the argument SIZE of plane is \"1,5\"; expected a number in 1e-06 to 1000000000 (write "
      "\"1.5\"); usage: plane SIZE [DIV]"},
     {"sphere 1 2 8", "shape.argument",
-     "the argument SLICES of sphere must be a whole number from 3 to 100000, not \"2\"; usage: "
+     "the argument SLICES of sphere is \"2\"; expected a whole number in 3 to 100000; usage: "
      "sphere RADIUS [SLICES] [STACKS]"},
     {"cone 1", "shape.argument",
      "the argument HEIGHT of cone is missing; usage: cone RADIUS HEIGHT [SLICES] [STACKS]"},
     {"cylinder 1 2 3 4 5", "shape.argument",
-     "cylinder takes at most 4 numbers, not 5; usage: cylinder RADIUS HEIGHT [SLICES] [STACKS]"},
+     "cylinder has 5 numbers; expected at most 4; usage: cylinder RADIUS HEIGHT [SLICES] [STACKS]"},
     {"torus 1 2 10 10", "shape.argument",
-     "the argument TUBE of torus must be less than RING; usage: torus RING TUBE [SLICES] [SIDES]"},
+     "the argument TUBE of torus is 2; expected less than RING, 1; usage: torus RING TUBE [SLICES] "
+     "[SIDES]"},
     {"ring 2 1", "shape.argument",
-     "the argument INNER of ring must be less than OUTER; usage: ring INNER OUTER [SLICES]"},
+     "the argument INNER of ring is 2; expected less than OUTER, 1; usage: ring INNER OUTER "
+     "[SLICES]"},
     {"patch teapot.patch 0", "shape.argument",
-     "the argument LEVEL of patch must be a whole number from 1 to 100000, not \"0\"; usage: patch "
+     "the argument LEVEL of patch is \"0\"; expected a whole number in 1 to 100000; usage: patch "
      "FILE [LEVEL]"},
-    {"revolution", "shape.argument", "revolution needs a file; usage: revolution FILE [N]"},
+    {"revolution", "shape.argument", "revolution has no file; usage: revolution FILE [N]"},
     {"spher 1 8 8", "shape.unknown", "there is no shape \"spher\"; did you mean \"sphere\"?"},
     {"pyramid 1 2", "shape.unknown",
-     "there is no shape \"pyramid\"; there are plane, box, sphere, cone, cylinder, torus, patch, "
+     "there is no shape \"pyramid\"; expected plane, box, sphere, cone, cylinder, torus, patch, "
      "ring, ellipsoid, frustum, revolution, wedge, dome"},
 };
 

@@ -90,7 +90,7 @@ TEST_CASE("chosen divisions of a dome keep the error, on both sides where it is 
             const generator::ShapeCall call = generator::refine(
                 modelOf("dome 2"), none, {.error = error, .fullTurn = 8, .balanced = balanced});
             const Mesh mesh = generator::generate(call, none);
-            const dvec3 scale = balanced ? generator::balanceOf(call) : dvec3(1.0);
+            const dvec3 scale = balanced ? generator::balancedScale(call) : dvec3(1.0);
             double inwards = 0, outwards = 0;
             for (std::size_t t = 0; t < mesh.triangles(); ++t) {
                 const auto [a, b, c] = corners(mesh, t);

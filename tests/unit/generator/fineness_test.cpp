@@ -36,22 +36,22 @@ double worst(const generator::Mesh& mesh, Distance distance) {
 
 }  // namespace
 
-TEST_CASE("the ladder has few steps, each at least what was asked") {
+TEST_CASE("the roundUpToStep has few steps, each at least what was asked") {
     for (double n = 1.0; n < 1024.0; n += 0.7) {
-        const double step = generator::ladder(n);
+        const double step = generator::roundUpToStep(n);
         REQUIRE(step >= n);
         REQUIRE(step <= std::max(1.0, 1.51 * n));
         if (step >= 8.0) REQUIRE(std::fmod(step, 4.0) == 0.0);
     }
-    CHECK(generator::ladder(1e9) == generator::kMostDivisions);
+    CHECK(generator::roundUpToStep(1e9) == generator::kMaxDivisions);
 }
 
 TEST_CASE("what a scene writes is not open, what it leaves out or calls auto is") {
-    CHECK(generator::isOpen(shape({"sphere", "1"})));
-    CHECK(generator::isOpen(shape({"sphere", "1", "auto", "8"})));
-    CHECK_FALSE(generator::isOpen(shape({"sphere", "1", "8", "8"})));
-    CHECK_FALSE(generator::isOpen(shape({"box", "2"})));
-    CHECK_FALSE(generator::isOpen(shape({"plane", "2"})));
+    CHECK(generator::isAdaptive(shape({"sphere", "1"})));
+    CHECK(generator::isAdaptive(shape({"sphere", "1", "auto", "8"})));
+    CHECK_FALSE(generator::isAdaptive(shape({"sphere", "1", "8", "8"})));
+    CHECK_FALSE(generator::isAdaptive(shape({"box", "2"})));
+    CHECK_FALSE(generator::isAdaptive(shape({"plane", "2"})));
     const generator::ShapeCall call =
         generator::refine(shape({"cone", "1", "2", "auto", "3"}), scene::BundleAssets(), {1e-3, 8});
     CHECK(call.count(3) == 3);
@@ -94,8 +94,8 @@ TEST_CASE("the teapot's divisions follow the bound on its second derivatives") {
     };
     CHECK(level(1.0) < level(0.01));
     CHECK(level(0.01) < level(0.0001));
-    // Second order: a hundredth of the error needs ten times the divisions, within the ladder's
-    // step.
+    // Second order: a hundredth of the error needs ten times the divisions, within the
+    // roundUpToStep's step.
     CHECK(level(0.0005) >= 6 * level(0.05));
     // Against a mesh so fine that it stands for the surface: same parameters, close points.
     const auto fine =

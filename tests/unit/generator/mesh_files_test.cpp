@@ -440,7 +440,7 @@ TEST_CASE("normals that are no directions are the faces' own, with a warning") {
     CHECK(findings[0].code == "mesh.normal");
 }
 
-TEST_CASE("a mesh of lines and points is told to have nothing to see") {
+TEST_CASE("a mesh of lines and points gets a warning that nothing can be seen") {
     for (const auto& [bytes, flat] :
          {std::pair("0 0 0\n1 0 0\n2 0 0\n", true),
           std::pair("0 0 0\n1 0 0\n2 0 0\n0 0 0\n1 0 0\n0 1 0\n", false)}) {

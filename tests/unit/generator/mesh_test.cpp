@@ -81,7 +81,7 @@ TEST_CASE("a mesh is made of arrays that go together, and of nothing else") {
     }
 }
 
-TEST_CASE("vertices and triangles are counted before memory is taken for them") {
+TEST_CASE("vertices and triangles are counted before memory is allocated for them") {
     using namespace farol::generator;
     CHECK_NOTHROW(checkCounts(kMaxVertices, kMaxTriangles));
     CHECK_THROWS_AS(checkCounts(kMaxVertices + 1, 0), Error);

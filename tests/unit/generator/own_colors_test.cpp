@@ -1,4 +1,4 @@
-// What a mesh file brings beside its triangles: colours, materials, smoothing groups, and places
+// The data of a mesh file beside its triangles: colours, materials, smoothing groups, and places
 // far from the origin.
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -82,6 +82,6 @@ TEST_CASE("normals at a collapsed edge are the limit from inside") {
         CHECK(glm::length(atPole - dvec3(0, 0, 1)) < 1e-9);
         CHECK(glm::length(atPole - nearby) < 0.02);
     }
-    BezierPatch point{};  // a patch without extent has no normal of its own
+    BezierPatch point{};  // a patch without extent has no normal
     CHECK(evaluate(point, 1, 1, 2).normal == dvec3(0, 1, 0));
 }

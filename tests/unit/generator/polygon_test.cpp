@@ -24,7 +24,7 @@ struct Face {
 };
 
 std::vector<FaceTriangle> trianglesOf(const std::vector<glm::vec3>& corners) {
-    std::vector<FaceTriangle> out{{7, 7, 7}};  // what was there before goes
+    std::vector<FaceTriangle> out{{7, 7, 7}};  // replaced
     triangulate(corners, out);
     return out;
 }

@@ -119,7 +119,7 @@ TEST_CASE("models are found in the bundle, in comments, in their names and built
     }
 }
 
-TEST_CASE("models that cannot be had are errors at their place") {
+TEST_CASE("models that are neither file nor shape are errors at their place") {
     struct Row {
         Setup setup;
         std::string code, said;
@@ -199,7 +199,7 @@ TEST_CASE("messages quote a bounded part of a file's name") {
     }
 }
 
-TEST_CASE("what is said of names that students write") {
+TEST_CASE("messages about file names that students write") {
     struct Row {
         const char *file, *code, *message;
     };
@@ -217,25 +217,25 @@ TEST_CASE("what is said of names that students write") {
          "in the "
          "file's name"},
         {"spaceship.3d", "asset.missing",
-         "there is no file \"spaceship.3d\", no generator comment for it, and its name is no "
-         "shape's; add it to the scene's files, or correct the name"},
+         "there is no file \"spaceship.3d\", no generator comment for it, and its name is not that "
+         "of a shape; add it to the scene's files, or correct the name"},
         {"shpi.3d", "asset.missing",
-         "there is no file \"shpi.3d\", no generator comment for it, and its name is no shape's; "
-         "did you mean \"Ship.3d\"?"},
+         "there is no file \"shpi.3d\", no generator comment for it, and its name is not that of a "
+         "shape; did you mean \"Ship.3d\"?"},
         {"spere_1_8_8.3d", "asset.missing",
-         "there is no file \"spere_1_8_8.3d\", no generator comment for it, and its name is no "
-         "shape's; did you mean \"sphere_1_8_8.3d\"?"},
+         "there is no file \"spere_1_8_8.3d\", no generator comment for it, and its name is not "
+         "that of a shape; did you mean \"sphere_1_8_8.3d\"?"},
         {"sphere_0,5_8_8.3d", "asset.missing",
-         "there is no file \"sphere_0,5_8_8.3d\", no generator comment for it, and its name is no "
-         "shape's; write a point for the comma: \"sphere_0.5_8_8.3d\""},
+         "there is no file \"sphere_0,5_8_8.3d\", no generator comment for it, and its name is not "
+         "that of a shape; write a point for the comma: \"sphere_0.5_8_8.3d\""},
         {"sphere_1_-8_8.3d", "shape.argument",
-         "the argument SLICES of sphere must be a whole number from 3 to 100000, not \"-8\"; "
-         "usage: sphere RADIUS [SLICES] [STACKS]"},
+         "the argument SLICES of sphere is \"-8\"; expected a whole number in 3 to 100000; usage: "
+         "sphere RADIUS [SLICES] [STACKS]"},
         {"box_2_0.3d", "shape.argument",
-         "the argument DIV of box must be a whole number from 1 to 100000, not \"0\"; usage: box "
-         "X [DIV], or box X Y Z [DIV]"},
+         "the argument DIV of box is \"0\"; expected a whole number in 1 to 100000; usage: box X "
+         "[DIV], or box X Y Z [DIV]"},
         {"sphere.3d", "shape.guessed",
-         "\"sphere.3d\" does not exist and its name gives no size; \"sphere 1\" is drawn"},
+         "\"sphere.3d\" does not exist and its name gives no size; using \"sphere 1\""},
     };
     for (const Row& row : rows) {
         CAPTURE(row.file);
@@ -280,7 +280,7 @@ TEST_CASE("a mesh of an unknown form is the shape that its name or comment says"
         CHECK(findings[0].where.file == row.file);
         CHECK(findings[0].where.line == 4);
     }
-    // What can be read is read, whatever its name says.
+    // A readable file is read, whatever its name says.
     scene::Scene scene;
     scene.groups.emplace_back().models.emplace_back().file = "box_1.3d";
     Diagnostics diagnostics, findings;

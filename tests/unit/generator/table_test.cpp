@@ -1,4 +1,4 @@
-// What holds for every row of the table of shapes.
+// Properties of every row of the table of shapes.
 #include <catch2/catch.hpp>
 #include <set>
 
@@ -102,18 +102,18 @@ TEST_CASE("a finer bound makes more divisions, within their range") {
         scene::Model model;
         model.source.kind = scene::ModelSource::Kind::shape;
         model.source.shape = usualCall(shape);
-        REQUIRE(generator::isOpen(model));
+        REQUIRE(generator::isAdaptive(model));
         const auto triangles = [&](double error) {
             return generator::countTriangles(generator::refine(model, kProfiles, {error, 8}),
                                              kProfiles);
         };
         CHECK(triangles(1e-4) > triangles(1e-2));
         model.autoLod = true;
-        CHECK(generator::isOpen(model));
+        CHECK(generator::isAdaptive(model));
         if (const auto surface = generator::surfaceOf(model)) {
             CHECK(surface->lengths.x > 0.0);
             CHECK(generator::fullTurnOf(model.source.shape) >= 8.0);
-            CHECK(generator::balanceOf(model.source.shape).x >= 1.0);
+            CHECK(generator::balancedScale(model.source.shape).x >= 1.0);
         }
     }
 }

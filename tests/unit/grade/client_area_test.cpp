@@ -60,7 +60,7 @@ TEST_CASE("a window's client area is found inside its frame") {
     CHECK(clientArea(painter.image, farol::image::ImageSize{400, 300}) == one.inside);
 }
 
-TEST_CASE("a picture without a frame is taken whole") {
+TEST_CASE("an image without a frame is used whole") {
     Painter painter(400, 300);
     painter.scene({0, 0, 400, 300});
     CHECK(clientArea(painter.image) == Rectangle{0, 0, 400, 300});

@@ -48,7 +48,7 @@ TEST_CASE("the report's script shows the columns of the metrics' table") {
                  "].filter(Boolean)");
 }
 
-TEST_CASE("each metric has a name of its own, and its sentence and columns fit its result") {
+TEST_CASE("each metric has a unique name, and its sentence and columns fit its result") {
     std::set<std::string_view> names;
     Frame reference, submission;
     for (int i = 0; i < 32 * 32; ++i) {

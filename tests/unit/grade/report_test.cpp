@@ -182,7 +182,7 @@ void requireXml(const std::string& xml) {
     REQUIRE(status == 0);
 }
 
-/// What names and messages may hold.
+/// Characters that names and messages may hold.
 const std::vector<std::string> kHostile = {
     "caf\xE9",
     "\xC3",

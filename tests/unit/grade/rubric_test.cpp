@@ -59,7 +59,7 @@ void numbers(const json& schema, std::vector<std::string> path, const Each& each
     }
 }
 
-/// What an object needs beside one key to be whole.
+/// The other keys that an object needs.
 void complete(json& rubric, const std::vector<std::string>& path) {
     if (path[0] != "criteria") return;
     const bool finding = path.back() == "perFinding";

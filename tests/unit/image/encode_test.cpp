@@ -81,7 +81,7 @@ TEST_CASE("a canvas that decoders take memory for at once is refused by the head
     }
 }
 
-TEST_CASE("a picture that claims to be huge is refused before memory is taken") {
+TEST_CASE("an image that claims to be huge is refused before memory is allocated") {
     std::string png = image::encodePng(noise(1, 1, true));
     const std::string width("\x00\x01\x86\xa0", 4);  // 100000
     png.replace(16, 4, width).replace(20, 4, width);

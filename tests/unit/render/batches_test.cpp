@@ -47,7 +47,7 @@ std::vector<std::size_t> countsOf(FramePlan plan) {
     std::vector<std::size_t> counts;
     for (const Batch& batch : all.batches) {
         CHECK(batch.first == std::accumulate(counts.begin(), counts.end(), std::size_t{0}));
-        CHECK(batch.instanced == (batch.count >= render::kLeastInstances));
+        CHECK(batch.instanced == (batch.count >= render::kMinInstances));
         counts.push_back(batch.count);
     }
     std::vector<std::uint32_t> order = all.order;

@@ -195,7 +195,7 @@ TEST_CASE("OpenEXR that is not read says why") {
         if (!isRefused(whole.substr(0, size), "OpenEXR")) FAIL(size << " bytes");
 }
 
-TEST_CASE("OpenEXR: sizes are bounded before memory is taken") {
+TEST_CASE("OpenEXR: sizes are bounded before memory is allocated") {
     Exr exr{{0, 0, 8191, 8191}, {0, 0, 8191, 8191}, "Y", {{1}}};
     CHECK(isRefused(exr.bytes(), "too much memory"));
     exr.data = {0, 0, 4095, 4095};

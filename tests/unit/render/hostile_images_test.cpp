@@ -1,4 +1,4 @@
-// Images that are valid in their parts and meant to cost memory, time or the next request.
+// Images of valid parts that are made to exhaust memory or time, or to break the next request.
 #include <zlib.h>
 
 #include <catch2/catch.hpp>
@@ -63,7 +63,7 @@ std::string progressiveJpeg(std::uint32_t side, int scans) {
 }
 
 std::string failure(const std::string& bytes) {
-    std::string damage;  // empty scans are some
+    std::string damage;  // empty scans count as damage
     try {
         image::decodeImage(bytes, "a", {}, &damage);
     } catch (const Error& error) {

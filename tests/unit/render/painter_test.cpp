@@ -322,7 +322,7 @@ TEST_CASE("passes are drawn in their order, each by its own state and features")
     const glm::ivec3 lit = at(both, 60, 60);
     CHECK(lit == glm::ivec3(26, 13, 6));  // ambient times 0.5
 
-    // The second model apart, over everything, in a colour of its own.
+    // The second model apart, over everything, in another colour.
     render::Pass over = plan.passes[0];
     plan.passes[0].items[0].count = 1;
     plan.passes[0].target.output = render::PassOutput::none;
@@ -348,7 +348,7 @@ TEST_CASE("a pass that fills the depth alone hides what is behind it from the ne
     plan.style.samples = 4;
     render::composePasses(plan, painter.facts());
     const Image image = drawPasses(painter, plan);
-    // What hides everything behind it, and shows nothing itself: a wall before the right half.
+    // It hides everything behind it, and shows nothing itself: a wall before the right half.
     plan.items.push_back(plan.items[0]);
     plan.items[1].viewFromObject[3] = glm::vec4(4.0F, 0.0F, -2.5F, 1.0F);
     render::composePasses(plan, painter.facts());
@@ -394,7 +394,7 @@ TEST_CASE("a backend that is not there is named, the one that is says what it ca
                       Catch::Contains("egl") && Catch::Contains("osmesa"));
     const auto context = createContext(Backend::osmesa);
     const render::GlFacts& gl = context->facts();
-    // What tests plan with is what this GL says.
+    // Tests plan with the limits of this GL.
     const render::GlFacts usual = support::fourSamples();
     CHECK(gl.samplePatterns == usual.samplePatterns);
     CHECK(gl.snapPx == usual.snapPx);

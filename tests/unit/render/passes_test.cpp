@@ -46,7 +46,7 @@ FramePlan composed(const render::FrameStyle& style = {}) {
     return plan;
 }
 
-/// What the model's shader is compiled with.
+/// The defines of the model's shader.
 FeatureSet featuresOf(const FramePlan& plan) {
     const render::Pass& pass = plan.passes.at(0);
     return pass.features | (plan.batches.batches.at(0).features & pass.itemFeatures);

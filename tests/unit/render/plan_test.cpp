@@ -157,7 +157,7 @@ TEST_CASE("group lights light their group only, camera lights stay with the view
     const auto& second = plan.lightSets[static_cast<std::size_t>(plan.items[1].lightSet)];
     REQUIRE(first.size() == 1);
     REQUIRE(second.size() == 2);
-    CHECK(first[0].position == glm::vec4(0, 0, 1, 0));  // whatever the camera
+    CHECK(first[0].position == glm::vec4(0, 0, 1, 0));  // for any camera
     CHECK(second[1].position.w == 1.0F);
     CHECK(second[1].position.y == Approx(5.0F));
     CHECK(second[1].position.z == Approx(-9.0F));  // at x = 1: nine before the eye

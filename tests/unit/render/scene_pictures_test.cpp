@@ -232,5 +232,5 @@ TEST_CASE(
     broken.xml = "<world>";
     CHECK_THROWS_AS(renderer.render(broken), Error);
     broken.xml = job("c", "R='1'").xml;
-    CHECK_NOTHROW(renderer.render(broken));  // what was refused is not remembered
+    CHECK_NOTHROW(renderer.render(broken));  // refusals are not cached
 }

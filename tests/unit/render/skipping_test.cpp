@@ -13,7 +13,7 @@
 #include "tests/support/paths.h"
 #include "tests/support/plan_scene.h"
 
-// What is left out of a picture must not show: boxes against brute force, pictures against pictures
+// Skipped parts of an image must not show: boxes against brute force, pictures against pictures
 // from which nothing is left out.
 using namespace farol;
 using render::Box;
@@ -89,7 +89,7 @@ std::string sphereAt(const glm::dvec3& place, double size) {
 
 }  // namespace
 
-TEST_CASE("a box of which a point is in view is never outside, one told inside has no point out") {
+TEST_CASE("a box with a point in view is never outside, one found inside has no point out") {
     int inside = 0, outside = 0, straddling = 0;
     for (int i = 0; i < 4000; ++i) {
         const scene::Camera camera = cameraAt(placeWithin(30.0), placeWithin(30.0));
@@ -107,7 +107,7 @@ TEST_CASE("a box of which a point is in view is never outside, one told inside h
                 glm::mix(box.min, box.max, glm::dvec3(between(0, 1), between(0, 1), between(0, 1)));
             const bool seen = inView(point, view);
             if (side == Frustum::Side::outside) REQUIRE_FALSE(seen);
-            // Inside is told of the view widened by two pixels: nothing needs drawing less.
+            // Inside is tested against the view widened by two pixels: nothing needs drawing less.
         }
     }
     CHECK(inside > 50);

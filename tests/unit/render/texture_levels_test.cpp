@@ -92,7 +92,7 @@ TEST_CASE("without smaller levels where the filter reads none") {
     }
 }
 
-TEST_CASE("of several faults the first in order is told, whether of a head or of pixels") {
+TEST_CASE("of several errors the first in order is thrown, whether of a head or of pixels") {
     const std::vector<TextureRef> refs = refsOf(6);
     for (const int head : {1, 3, 5})
         for (const int pixels : {0, 2, 4}) {

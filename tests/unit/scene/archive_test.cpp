@@ -94,7 +94,7 @@ TEST_CASE("which file is the scene") {
         FAIL("a mesh was taken for a scene");
     } catch (const Error& error) {
         CHECK(error.code() == "bundle.no-scene");
-        // What to do about it is a scene that can be read.
+        // The scene that the message proposes can be read.
         const std::string message = error.what();
         const std::size_t start = message.find("<world>");
         const std::size_t end = message.find("</world>");
@@ -295,7 +295,7 @@ TEST_CASE("7z files are read, and rar files that are damaged say what to send") 
     } catch (const Error& error) {
         CHECK_THAT(error.what(), Catch::Contains("zip"));
     }
-    // What stands before a file in a solid archive is unpacked to reach it: bounded, too.
+    // Entries before a file in a solid archive are unpacked to reach it: bounded, too.
     const std::string zeros(std::size_t{32} << 20U, '\0');
     CHECK(codeOf(pack(Packing::sevenZip, {{"a/zeros.mp4", zeros}, scene})) == "limit.bundle");
 }

@@ -144,7 +144,7 @@ TEST_CASE("a file's version changes with its content") {
     CHECK(before != assets.version("a.txt"));
 }
 
-TEST_CASE("files too large are refused before memory is taken") {
+TEST_CASE("files too large are refused before memory is allocated") {
     const Folders folders;
     fs::resize_file(folders.path("in/a.txt"), Assets::kMaxFileBytes + 1);  // sparse
     const FolderAssets assets(folders.inside());
@@ -156,7 +156,7 @@ TEST_CASE("files too large are refused before memory is taken") {
     }
 }
 
-TEST_CASE("entries that are no files are told apart, and links out of the folder left out") {
+TEST_CASE("entries that are no files are recognised, and links out of the folder left out") {
     const Folders folders;
     REQUIRE(mkfifo(folders.path("in/pipe.x").c_str(), 0600) == 0);
     fs::create_directories(folders.path("in/folder.x"));

@@ -1,4 +1,5 @@
-// Tables of inputs that are repaired or refused: what is said, where, and whether a scene results.
+// Tables of inputs that are repaired or refused: the findings, their places, and whether a scene
+// results.
 #include <catch2/catch.hpp>
 
 #include "tests/unit/scene/reading.h"
@@ -10,7 +11,7 @@ using namespace farol::scene::test;
 namespace {
 
 struct CodeCase {
-    std::string xml;  ///< "^" marks the place that is to be told, and is taken out before reading
+    std::string xml;  ///< "^" marks the expected place, and is removed before reading
     bool refused;
     std::string code;
 };
@@ -188,7 +189,7 @@ TEST_CASE("documents that are not scenes are refused") {
     });
 }
 
-TEST_CASE("oddities of scenes are told") {
+TEST_CASE("oddities of scenes are reported") {
     check({
         {transform("<translate x=\"1\" ^w=\"4\"/>"), false, "scene.unknown-attribute"},
         {transform("<translate x=\"^1,5\"/>"), false, "scene.number"},
@@ -229,7 +230,7 @@ TEST_CASE("oddities of scenes are told") {
         {model("<color><diffuse R=\"9\"/>^<diffuse R=\"8\"/></color>"), false,
          "scene.duplicate-element"},
         {model("<color/>^<color/>"), false, "scene.duplicate-element"},
-        // What is written into an element that holds nothing would be lost without a word.
+        // Content of an element that holds nothing would be lost without a message.
         {world("<lights><light type=\"point\">^<diffuse R=\"9\"/></light></lights>"), false,
          "scene.misplaced"},
         {transform("<rotate angle=\"9\" y=\"1\">^<axis/></rotate>"), false,
@@ -308,7 +309,7 @@ TEST_CASE("warnings are errors when strict") {
             .scene);
 }
 
-TEST_CASE("unknown names are told with the nearest known one") {
+TEST_CASE("unknown names are reported with the nearest known one") {
     const auto message = [](const std::string& xml, const std::string& code) {
         const Outcome outcome = tryRead(xml);
         const Diagnostic* found = outcome.find(code);
@@ -342,11 +343,11 @@ TEST_CASE("a refused document tells all that was found") {
     REQUIRE_FALSE(outcome.scene);
     std::vector<int> lines;
     for (const Diagnostic& one : outcome.diagnostics) lines.push_back(one.where.line);
-    CHECK(lines == std::vector<int>{6, 2, 3, 4});  // what breaks the document comes first
+    CHECK(lines == std::vector<int>{6, 2, 3, 4});  // errors of the document come first
     CHECK(outcome.find("xml.unclosed") != nullptr);
 }
 
-TEST_CASE("a truncated document is told as such, whatever it seems to say") {
+TEST_CASE("a truncated document is reported as such, whatever it seems to say") {
     const std::string whole =
         "<world>\n<camera><position x=\"0\" y=\"0\" z=\"0\"/><lookAt x=\"1\"/></camera>\n"
         "<lights><light type=\"directional\" dirX=\"1\"/></lights>\n"

@@ -85,7 +85,7 @@ TEST_CASE("an included file names its neighbours from its own folder") {
     CHECK(outcome.scene->groups.at(0).name == "beside");
 }
 
-TEST_CASE("an entity is a scene of its own") {
+TEST_CASE("an entity is a separate scene") {
     const Files files = {{"ship.xml", "<scene><models><model file=\"s.3d\"/></models></scene>"}};
     const Outcome outcome = tryRead(scene2017("<entity file=ship.xml/>"), {}, files);
     INFO(outcome.text());

@@ -42,7 +42,7 @@ TEST_CASE("nesting, elements and bytes are bounded") {
     tight.limits.depth = 3;
     CHECK(codeOf("<world><group><group/></group></world>", tight).empty());
     CHECK(codeOf("<world><group><group><group/></group></group></world>", tight) == "limit.depth");
-    // Whatever the caller allows, recursion stays within the stack.
+    // Recursion stays within the stack, whatever the caller allows.
     large.limits.depth = 1'000'000;
     CHECK(codeOf("<world>" + repeated("<group>", 100'000), large) == "limit.depth");
     CHECK(codeOf(world(repeated("<group>", 400) + repeated("</group>", 400)), large).empty());
@@ -64,7 +64,7 @@ TEST_CASE("at most 50 findings a document, errors before warnings") {
     CHECK(tryRead(some).find("limit.diagnostics") == nullptr);
 }
 
-TEST_CASE("repeated repairs are told a few times, then counted") {
+TEST_CASE("repeated repairs are reported a few times, then counted") {
     const Outcome outcome = tryRead(scene2017(repeated("<group><translate x=1 y=2/></group>", 20) +
                                               "<background color=\"red\"/>"));
     REQUIRE(outcome.scene);

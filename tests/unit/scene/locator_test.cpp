@@ -76,7 +76,7 @@ TEST_CASE("each step of the rule finds its file, and says so") {
     struct Row {
         const char* what;
         std::string document, wanted;
-        std::vector<std::string> files;  ///< each with bytes of its own
+        std::vector<std::string> files;  ///< each with other bytes
         std::string found, codes;
     };
     const Row rows[] = {

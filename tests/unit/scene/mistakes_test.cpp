@@ -1,5 +1,5 @@
-// The mistakes that students make, each in the same scene: what is said of it, word for word,
-// where, and whether there is a picture all the same.
+// The mistakes that students make, each in the same scene: the messages word for word, their
+// places, and whether there is an image all the same.
 #include <catch2/catch.hpp>
 
 #include "tests/unit/scene/reading.h"
@@ -422,14 +422,14 @@ scene.unknown-element 16:1 unknown element <p> in <translate> is ignored
 
 }  // namespace
 
-TEST_CASE("what is said of students' mistakes") {
+TEST_CASE("messages about students' mistakes") {
     for (const Mistake& one : mistakes()) {
         CAPTURE(one.name);
         CHECK(tryRead(mistaken(one)).text() == (one.refused ? "refused\n" : "read\n") + one.said);
     }
 }
 
-TEST_CASE("a mistake is told alike with a byte order mark and Windows line ends") {
+TEST_CASE("a mistake is reported alike with a byte order mark and Windows line ends") {
     for (const Mistake& one : mistakes()) {
         CAPTURE(one.name);
         std::string windows = "\xEF\xBB\xBF";

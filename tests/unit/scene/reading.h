@@ -8,7 +8,7 @@
 #include "scene/files/assets.h"
 #include "scene/read/reader.h"
 
-/// What the tests of the reader share: one call, either outcome.
+/// Shared by the tests of the reader: one call, either outcome.
 namespace farol::scene::test {
 
 struct Outcome {

@@ -84,7 +84,7 @@ TEST_CASE("schema and reference have every element and attribute of the tables")
             INFO("child " << name);
             CHECK(type.find("element name=\"" + name + "\"") != std::string::npos);
         }
-        // These are told together with their like.
+        // These are reported together with their like.
         const bool asOthers = isAmong("lookAt up ambient specular emissive", element.name);
         for (const AttributeSpec& attribute : element.attributes) {
             INFO("attribute " << attribute.name);

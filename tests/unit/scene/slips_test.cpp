@@ -269,7 +269,7 @@ TEST_CASE("slips of colours are read as meant") {
         Approx(0.6));
 }
 
-TEST_CASE("a child in the wrong parent is told the nearest right one") {
+TEST_CASE("a child in the wrong parent is reported with the nearest right one") {
     const auto message = [](const std::string& xml) {
         return finding(tryRead(xml), "scene.misplaced").message;
     };
@@ -331,7 +331,7 @@ TEST_CASE("with leaveOut errors leave out what they concern, and stay in the lis
     for (const char* code : {"scene.camera", "scene.value", "scene.number",
                              "scene.missing-attribute", "asset.missing"})
         CHECK(finding(outcome, code).severity == Severity::error);
-    // What is no document at all has nothing to leave out.
+    // A text that is no document has nothing to leave out.
     for (const char* nothing : {"", "{}", "<word/>"})
         CHECK_FALSE(tryRead(nothing, leavingOut()).scene);
 }

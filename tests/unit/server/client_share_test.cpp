@@ -1,4 +1,4 @@
-// What one client may take of the memory that all share.
+// The share of one client in the memory of all.
 #include <catch2/catch.hpp>
 
 #include "server/client_bytes.h"
@@ -54,7 +54,7 @@ TEST_CASE("one client's uploads in memory make room from his own, never from tho
     CHECK(put("late", "<late/>", 90'000) == "store.full");
     CHECK(put("late", "<late/>", 10'000).front() == '~');
     for (const std::string& id : others) CHECK(store.get(id));
-    // What is there already stays whose it is.
+    // Entries that are there already keep their owner.
     const auto again = store.putFor("greedy", bundleOf("<a>a", 90'000), true);
     CHECK_FALSE(again.created);
     for (int i = 0; i < 20; ++i) put("greedy", "x" + std::to_string(i), 80'000);

@@ -78,7 +78,7 @@ TEST_CASE("where there is nothing to watch every request looks") {
     FolderWatch none("");
     CHECK_FALSE(none.revision());
     const Folder folder("watch-many");
-    for (std::size_t i = 0; i <= FolderWatch::kMostFolders; ++i)
+    for (std::size_t i = 0; i <= FolderWatch::kMaxFolders; ++i)
         fs::create_directory(folder.path(std::to_string(i)));
     FolderWatch many(folder.path());
     CHECK_FALSE(many.revision());

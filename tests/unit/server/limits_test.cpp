@@ -61,7 +61,7 @@ TEST_CASE("a slow rate says how long to wait") {
 TEST_CASE("a client is its socket's peer unless our own proxy speaks for it") {
     CHECK(clientOf(from("10.0.0.1"), false) == "10.0.0.1");
     CHECK(clientOf(from("10.0.0.1", "1.2.3.4"), false) == "10.0.0.1");
-    // What stands before the last address was written by the client itself.
+    // Addresses before the last were written by the client itself.
     CHECK(clientOf(from("10.0.0.1", "6.6.6.6, 1.2.3.4"), true) == "1.2.3.4");
     CHECK(clientOf(from("10.0.0.1"), true) == "10.0.0.1");
     CHECK(clientOf(from("2001:db8:1:2:3:4:5:6"), false) == "2001:db8:1:2::");

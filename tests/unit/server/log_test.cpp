@@ -31,7 +31,7 @@ TEST_CASE("lines of many threads are all in the log, once and whole") {
         REQUIRE(event.is_object());
         const std::string message = event.value("message", "");
         said.insert(message);
-        // What one thread says stays in its order.
+        // The lines of one thread stay in order.
         const auto thread = static_cast<std::size_t>(std::stoi(message));
         const int number = std::stoi(message.substr(message.find(' ')));
         inOrder = inOrder && number == last.at(thread) + 1;

@@ -29,7 +29,7 @@ TEST_CASE("percent-encoding round trips") {
     CHECK(http::percentDecode(http::percentEncodePath(text), false) == text);
 }
 
-TEST_CASE("what the library must not see is taken out of the head") {
+TEST_CASE("headers that the library must not see are removed from the head") {
     const http::Head head = http::checkHead(
         "POST /v1/render?width=3 HTTP/1.1\r\nHost: x\r\nRange: bytes=0-1\r\nREMOTE_ADDR: "
         "1.2.3.4\r\n"
@@ -52,7 +52,7 @@ TEST_CASE("random heads never do harm") {
         for (int edits = 0; edits < 4; ++edits)
             text[random() % text.size()] = alphabet[random() % alphabet.size()];
         const http::Head head = http::checkHead(text);
-        // What is let through is one head and nothing after it.
+        // The result is one head and nothing after it.
         if (!head.refusal) CHECK(head.cleaned.find("\r\n\r\n") == head.cleaned.size() - 4);
     }
 }

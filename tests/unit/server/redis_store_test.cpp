@@ -1,5 +1,5 @@
-// The store that many services share, against a real Redis: the promises of the others, and what
-// comes of a Redis that is away.
+// The store that many services share, against a real Redis: the guarantees of the other stores, and
+// a Redis that cannot be reached.
 #include "server/store/redis_store.h"
 
 #include <atomic>
@@ -63,13 +63,13 @@ TEST_CASE("addresses of a Redis are read, and refused without their password") {
     }
     try {
         redisAddressOf("redis://me:secret@store:99999");
-        FAIL("it was taken");
+        FAIL("it was accepted");
     } catch (const Error& error) {
         CHECK(std::string(error.what()).find("secret") == std::string::npos);
     }
 }
 
-TEST_CASE("what one service puts into Redis, all find") {
+TEST_CASE("a scene that one service puts into Redis is found by all") {
     const RedisServer redis;
     RedisStore one = open(redis), other = open(redis);
     const scene::Bundle bundle = bundleOf("<world/>", 1000);
@@ -105,7 +105,7 @@ TEST_CASE("what one service puts into Redis, all find") {
     CHECK_FALSE(one.get("../etc/passwd"));
 }
 
-TEST_CASE("a full Redis store lets go of what nobody asked for the longest") {
+TEST_CASE("a full Redis store evicts the least recently used scenes") {
     const RedisServer redis;
     StoreLimits limits;
     limits.bytes = 14'000;
@@ -151,7 +151,7 @@ TEST_CASE("scenes in Redis expire, and leave nothing behind") {
     CHECK(lasting.get(kept.id));
 }
 
-TEST_CASE("a Redis that is away is a 503, and what is in memory is still there") {
+TEST_CASE("an unreachable Redis is a 503, and scenes in memory are still served") {
     RedisServer redis;
     RedisStore store = open(redis);
     const std::string warm = store.put(bundleOf("warm", 100), true).entry.id;
@@ -179,7 +179,7 @@ TEST_CASE("a Redis that is away is a 503, and what is in memory is still there")
     CHECK(store.list().size() == 2);
 }
 
-TEST_CASE("a Redis without room, and one that wants a password, are told apart") {
+TEST_CASE("a Redis without room, and one that wants a password, are distinguished") {
     RedisServer redis;
     RedisStore store = open(redis);
     const std::string before = store.put(bundleOf("before", 100), false).entry.id;
@@ -201,7 +201,7 @@ TEST_CASE("a Redis without room, and one that wants a password, are told apart")
     CHECK(codeOf([&] { RedisStore(address, {}, quiet).list(); }) == "store.unreachable");
 }
 
-TEST_CASE("what was changed inside Redis is not served") {
+TEST_CASE("data that were changed inside Redis are not served") {
     const RedisServer redis;
     RedisStore store = open(redis);
     const std::string id = store.put(bundleOf("fine", 300), true).entry.id;
@@ -214,13 +214,13 @@ TEST_CASE("what was changed inside Redis is not served") {
     CHECK(store.get(id));
 }
 
-TEST_CASE("what does not match its digest in Redis is kept aside, and sent again replaces it") {
+TEST_CASE("a scene whose digest differs is set aside, and replaced when it is sent again") {
     const RedisServer redis;
     RedisStore store = open(redis);
     const std::string id = store.put(bundleOf("fine", 300), true).entry.id;
     RedisLink admin(redis.address(), [](const std::string&) {});
     admin.ask({"SETRANGE", "{farol}:scene:" + id, "200", "bent"});
-    // Nobody has asked for it yet: who sends it is answered that it is kept.
+    // It was not read yet, so the damage is not known: put() finds it there.
     CHECK_FALSE(store.put(bundleOf("fine", 300), false).created);
     const auto kept = store.get(id);
     REQUIRE(kept);

@@ -1,4 +1,4 @@
-// Who is to blame for a lost worker: the request, the scene, or nobody.
+// The cause of a lost worker: the request, the scene, or neither.
 #include <signal.h>
 
 #include <atomic>

@@ -7,17 +7,17 @@
 namespace farol::worker {
 
 /// The output of worker processes and their libraries, as lines for the log, so that a decoder's
-/// complaint does not stand between the lines of JSON. A worker that prints faster than it is read
-/// loses what is too much; it never waits.
-class Said {
+/// complaint does not stand between the lines of JSON. Drops excess lines of a worker that prints
+/// faster than it is read: a worker never waits for the log.
+class WorkerOutput {
   public:
     using Sink = std::function<void(const std::string& line)>;
     /// A separate thread calls `sink`. Throws std::runtime_error.
-    explicit Said(Sink sink);
+    explicit WorkerOutput(Sink sink);
     /// Reads what is there and ends.
-    ~Said();
-    Said(const Said&) = delete;
-    Said& operator=(const Said&) = delete;
+    ~WorkerOutput();
+    WorkerOutput(const WorkerOutput&) = delete;
+    WorkerOutput& operator=(const WorkerOutput&) = delete;
 
     /// The descriptor for a process to print to; closed on exec.
     int descriptor() const { return writeFd_; }

@@ -1,4 +1,4 @@
-#include "worker/said.h"
+#include "worker/worker_output.h"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -20,7 +20,7 @@ constexpr std::size_t kBytesASecond = std::size_t{1} << 20U;
 
 }  // namespace
 
-Said::Said(Sink sink) : sink_(std::move(sink)) {
+WorkerOutput::WorkerOutput(Sink sink) : sink_(std::move(sink)) {
     int ends[2];
     if (pipe2(ends, O_CLOEXEC) != 0)
         throw std::runtime_error(std::string("no pipe for the workers: ") + std::strerror(errno));
@@ -31,14 +31,14 @@ Said::Said(Sink sink) : sink_(std::move(sink)) {
     thread_ = std::thread([this] { run(); });
 }
 
-Said::~Said() {
+WorkerOutput::~WorkerOutput() {
     // The workers have ended by now, so ours is the last end that writes.
     close(writeFd_);
     thread_.join();
     close(readFd_);
 }
 
-void Said::run() {
+void WorkerOutput::run() {
     std::array<char, 4096> bytes;
     std::string line;
     int lines = 0;

@@ -13,9 +13,9 @@
 
 namespace farol::worker {
 
-/// Starts worker processes ahead of need, so that one that is lost or has done its share is
-/// replaced at once by one that can draw already.
-class Nursery {
+/// Starts worker processes ahead of need, so that a lost or retired one is replaced at once by
+/// one that is initialised.
+class WorkerSpawner {
   public:
     struct Options {
         WorkerOptions worker;
@@ -25,16 +25,16 @@ class Nursery {
     /// Called for each start that failed, by several threads.
     using Report = std::function<void(const std::string& fault)>;
 
-    /// Starts nothing yet: begin() does.
-    Nursery(Options options, Report report);
-    ~Nursery();
-    Nursery(const Nursery&) = delete;
-    Nursery& operator=(const Nursery&) = delete;
+    /// Starts nothing yet: begin() does so.
+    WorkerSpawner(Options options, Report report);
+    ~WorkerSpawner();
+    WorkerSpawner(const WorkerSpawner&) = delete;
+    WorkerSpawner& operator=(const WorkerSpawner&) = delete;
 
-    /// The first processes are started for so many that will be taken.
-    void begin(int takers);
-    /// A process that can draw; waits for one until `patience` is over, then null. Null at once
-    /// after stop().
+    /// Starts the first processes, for `workers` calls of take().
+    void begin(int workers);
+    /// Returns an initialised process; waits for one until `patience` is over, then null. Null at
+    /// once after stop().
     std::unique_ptr<WorkerProcess> take(std::chrono::milliseconds patience);
     /// Starts no more and ends those that nobody took. The starters stay until the destructor,
     /// because a worker dies with the thread that started it.

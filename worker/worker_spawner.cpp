@@ -1,18 +1,18 @@
-#include "worker/nursery.h"
+#include "worker/worker_spawner.h"
 
 #include <algorithm>
 
 namespace farol::worker {
 namespace {
 
-constexpr std::chrono::milliseconds kFirstPause{10}, kLongestPause{5'000};
+constexpr std::chrono::milliseconds kFirstPause{10}, kMaxPause{5'000};
 
 }  // namespace
 
-Nursery::Nursery(Options options, Report report)
+WorkerSpawner::WorkerSpawner(Options options, Report report)
     : options_(std::move(options)), report_(std::move(report)) {}
 
-Nursery::~Nursery() {
+WorkerSpawner::~WorkerSpawner() {
     stop();
     {
         const std::lock_guard lock(mutex_);
@@ -22,15 +22,15 @@ Nursery::~Nursery() {
     for (std::thread& thread : threads_) thread.join();
 }
 
-void Nursery::begin(int takers) {
+void WorkerSpawner::begin(int workers) {
     {
         const std::lock_guard lock(mutex_);
-        expected_ = takers;
+        expected_ = workers;
     }
     for (int i = 0; i < options_.starters; ++i) threads_.emplace_back([this] { run(); });
 }
 
-void Nursery::stop() {
+void WorkerSpawner::stop() {
     std::deque<std::unique_ptr<WorkerProcess>> left;
     {
         const std::lock_guard lock(mutex_);
@@ -42,12 +42,12 @@ void Nursery::stop() {
 }
 
 // The caller holds the lock.
-bool Nursery::isWanted() const {
+bool WorkerSpawner::isWanted() const {
     const int wanted = std::max(expected_, waiting_) + options_.spares;
     return !stopping_ && static_cast<int>(processes_.size()) + starting_ < wanted;
 }
 
-void Nursery::run() {
+void WorkerSpawner::run() {
     std::chrono::milliseconds pause{0};
     std::unique_lock lock(mutex_);
     for (;;) {
@@ -60,7 +60,7 @@ void Nursery::run() {
             process = std::make_unique<WorkerProcess>(options_.worker);
             pause = std::chrono::milliseconds(0);
         } catch (const std::exception& fault) {
-            pause = std::clamp(pause * 2, kFirstPause, kLongestPause);
+            pause = std::clamp(pause * 2, kFirstPause, kMaxPause);
             report_(fault.what());
         }
         lock.lock();
@@ -74,7 +74,7 @@ void Nursery::run() {
     }
 }
 
-std::unique_ptr<WorkerProcess> Nursery::take(std::chrono::milliseconds patience) {
+std::unique_ptr<WorkerProcess> WorkerSpawner::take(std::chrono::milliseconds patience) {
     std::unique_lock lock(mutex_);
     const auto end = std::chrono::steady_clock::now() + patience;
     ++waiting_;

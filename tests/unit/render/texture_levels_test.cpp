@@ -85,8 +85,8 @@ TEST_CASE("without smaller levels where the filter reads none") {
             [](const TextureRef&) {
                 return UndecodedTexture{1, 8, [](std::string&) { return column(8); }};
             },
-            {.take = [&](const TextureRef&,
-                         const TextureLevels& got) { images = got.images.size(); }},
+            {.onDecoded = [&](const TextureRef&,
+                              const TextureLevels& got) { images = got.images.size(); }},
             render::GlFacts{});
         CHECK(images == static_cast<std::size_t>(count));
     }
@@ -108,7 +108,7 @@ TEST_CASE("of several errors the first in order is thrown, whether of a head or 
             std::string told;
             try {
                 render::loadTextures(pointers(refs), open,
-                                     {.take = [](const TextureRef&, const TextureLevels&) {}},
+                                     {.onDecoded = [](const TextureRef&, const TextureLevels&) {}},
                                      render::GlFacts{});
             } catch (const Error& error) {
                 told = error.what();
@@ -131,7 +131,7 @@ TEST_CASE("textures over the limits are scaled down with a note, each axis for i
                 return UndecodedTexture{1, height,
                                         [height](std::string&) { return column(height); }};
             },
-            {.take = [&](const TextureRef&, const TextureLevels& got) { levels = got; }}, gl);
+            {.onDecoded = [&](const TextureRef&, const TextureLevels& got) { levels = got; }}, gl);
     };
     load(8, 8);
     CHECK(levels.images[0].height == 8);
@@ -143,9 +143,10 @@ TEST_CASE("textures over the limits are scaled down with a note, each axis for i
     CHECK(levels.images[0].pixels.front() == 8);
     CHECK(levels.images[0].pixels.back() == 0);
     REQUIRE(levels.notes.size() == 1);
-    CHECK(std::string(levels.notes[0].code) == "image.scaled");
-    CHECK(levels.notes[0].text.find("1 x 9 px") != std::string::npos);
-    CHECK(levels.notes[0].text.find("1 x 6 px") != std::string::npos);
+    const Diagnostic warning = render::warningOf(levels.notes[0], refs[0]);
+    CHECK(warning.code == "image.scaled");
+    CHECK(warning.message.find("1 x 9 px") != std::string::npos);
+    CHECK(warning.message.find("1 x 6 px") != std::string::npos);
 }
 
 TEST_CASE("a wide, low cross makes no faces many times its own size") {
@@ -163,8 +164,8 @@ TEST_CASE("a wide, low cross makes no faces many times its own size") {
                                         return cross;
                                     }};
         },
-        {.take = [&](const TextureRef&, const TextureLevels& got) { levels = got; }}, gl);
+        {.onDecoded = [&](const TextureRef&, const TextureLevels& got) { levels = got; }}, gl);
     REQUIRE(levels.images.size() == 6);
     for (const Image& face : levels.images) CHECK((face.width == 16 && face.height == 16));
-    CHECK(levels.notes.size() == 1);
+    CHECK(levels.notes.size() == 2);
 }

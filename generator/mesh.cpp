@@ -52,7 +52,7 @@ void checkNumbers(const std::vector<Vector>& list, const Message& kind,
 
 void checkCounts(std::size_t vertices, std::size_t triangles, const std::string& fileName) {
     if (triangles > kMaxTriangles)
-        refuse(message<"limit.triangles/mesh">("file"_arg = uncut(fileName),
+        refuse(message<"limit.triangles/file">("file"_arg = uncut(fileName),
                                                "most"_arg = kMaxTriangles),
                fileName);
     if (vertices > kMaxVertices)

@@ -6,7 +6,7 @@ namespace farol::generator {
 
 /// Messages about mesh and material files, by code.
 inline constexpr MessageRow kMeshMessages[] = {
-    {"limit.triangles/mesh",
+    {"limit.triangles/file",
      "the mesh[ file \"{file}\"] has more than {most} triangles",
      {"city.obj", "8000000"}},
     {"limit.triangles/vertices",

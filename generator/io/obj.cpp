@@ -209,14 +209,6 @@ class Reader {
         return message<"mesh.index/range">("index"_arg = index, "count"_arg = count);
     }
 
-    /// Of part 0 to 2 of a corner, v/vt/vn; `count` of its kind are read.
-    static Message outOfRange(std::size_t part, std::string_view index, std::size_t count) {
-        if (part == 1) return message<"mesh.index/uvs">("index"_arg = index, "count"_arg = count);
-        if (part == 2)
-            return message<"mesh.index/normals">("index"_arg = index, "count"_arg = count);
-        return message<"mesh.index/range">("index"_arg = index, "count"_arg = count);
-    }
-
     /// Nothing where one of its indices is out of range.
     std::optional<Corner> corner(std::string_view word) {
         Corner out{-1, -1, -1};

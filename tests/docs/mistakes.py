@@ -36,7 +36,7 @@ SCENE = """<world>
         <texture file="letter.png"/>
         <color>
           <diffuse R="200" G="200" B="0"/>
-          <shininess value="50"/>
+          <ambient R="0" G="0" B="0"/>
         </color>
       </model>
     </models>
@@ -132,7 +132,7 @@ TABLES = {
         ("a factor of 0", 15, 1, '<scale x="0" y="0" z="0"/>'),
         ("no light reaches the models", 10, 1,
          '<light type="spot" posX="0" posY="10" posZ="0" dirX="0" dirY="1" dirZ="0" cutoff="30"/>'),
-        ("a black material", 19, 5, '<color><diffuse R="0" G="0" B="0"/></color>'),
+        ("a black material", 19, 5, '<color><diffuse R="0" G="0" B="0"/><ambient R="0" G="0" B="0"/></color>'),
         ("the only light is inside the model", 10, 1, '<light type="point" posX="0" posY="1" posZ="0"/>'),
         ("a plane seen from below", 4, 15,
          '<position x="0" y="-3" z="2"/>\n<lookAt x="0" y="1" z="0"/>\n</camera>\n<group>\n<models>\n<model command="plane 4">'),

@@ -52,6 +52,8 @@ std::string encodeMesh(const Mesh& mesh, Format format) {
 
 Mesh decodeMesh(std::string_view bytes, const std::string& fileName, Diagnostics& findings) {
     RawMesh raw = decodeRaw(bytes, fileName);
+    // Patches whose points are all one, for instance.
+    if (raw.indices.empty()) throw Error(message<"mesh.empty/triangles">(), {fileName, 0, 0});
     MeshArrays arrays = settle(raw);
     checkStructure(arrays, fileName);  // repair follows the indices
     for (Diagnostic& one : raw.findings) findings.push_back(std::move(one));

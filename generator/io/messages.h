@@ -64,6 +64,7 @@ inline constexpr MessageRow kMeshMessages[] = {
     {"mesh.empty/triangles", "the mesh file has no triangles"},
     {"mesh.empty/vertices", "the mesh file has no vertices"},
     {"mesh.flat", "no triangle of \"{file}\" has an area; nothing of it can be seen", {"box.obj"}},
+    {"mesh.empty/triangles", "the mesh file holds no triangles that can be seen"},
     {"mesh.format/binary", "the binary mesh has parts that this version does not know"},
     {"mesh.format/block",
      "a block of {count} numbers a line; expected normals, texture coordinates or indices",

@@ -199,6 +199,14 @@ TEST_CASE("a patch file is read whatever its lines") {
     }
 }
 
+TEST_CASE("patches without any surface are refused") {
+    Diagnostics findings;
+    const std::string point = "1 1 1\n";
+    std::string points;
+    for (int i = 0; i < 16; ++i) points += point;
+    CHECK_THROWS_WITH(decodeMesh(points, "a.patch", findings), Catch::Contains("no triangles"));
+}
+
 TEST_CASE("a mesh file that says nothing names what it looks like") {
     const auto messageOf = [](const std::string& bytes) {
         Diagnostics findings;

@@ -7,6 +7,7 @@
 #include "core/number.h"
 #include "core/text.h"
 #include "generator/call.h"
+#include "generator/io/mesh_file.h"
 #include "generator/io/mtl.h"
 #include "generator/messages.h"
 #include "generator/registry.h"
@@ -17,6 +18,7 @@ namespace farol::generator {
 namespace {
 
 using scene::ModelSource;
+constexpr int kProfileCopies = 65;  ///< of a profile without `revolve`
 using Words = std::vector<std::string>;
 
 /// Finds the file or the shape that a model means.
@@ -39,6 +41,14 @@ class ModelFinder {
                    message<"asset.from-file">("file"_arg = uncut(model.file),
                                               "path"_arg = uncut(*path)),
                    model.where);
+            if (isProfile(*path)) {
+                report(Severity::warning,
+                       message<"mesh.assumed/profile">("file"_arg = model.file,
+                                                       "copies"_arg = kProfileCopies),
+                       model.where);
+                return shape(parseCall({"revolution", model.file, std::to_string(kProfileCopies)}),
+                             model, message<"part.by-profile">());
+            }
             if (const ShapeEntry* entry = shapeOfFile(*path))
                 return {ModelSource::Kind::shape, *path, parseCall({entry->name, *path})};
             ModelSource source{ModelSource::Kind::file, *path};
@@ -66,6 +76,12 @@ class ModelFinder {
   private:
     void report(Severity severity, Message message, const Location& where) {
         diagnostics_.push_back(diagnosticOf(severity, std::move(message), where));
+    }
+
+    bool isProfile(const std::string& path) const {
+        if (fileEnding(path) != "ply") return false;
+        const std::optional<std::string> bytes = assets_.read(path);
+        return bytes && io::isPlyProfile(*bytes, path);
     }
 
     /// The materials of an OBJ file; null where it names none. What cannot be read is a warning,

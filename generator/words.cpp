@@ -88,6 +88,31 @@ std::optional<ShapeCall> parseCountsFirst(const std::vector<std::string>& words,
     }
 }
 
+/// A file's name as its words are parted: without its ending and what systems add to a copy's
+/// ("box_2 (1).3d", "box_2 - Copia.3d", "box_2.3d.3d"), with "_" for the marks in "sphere-1-16-8"
+/// and "sphere(1,16,8)".
+std::string plainName(std::string_view base) {
+    std::string name(withoutEnding(std::string(base)));
+    if (fileEnding(name) == "3d") name.resize(name.size() - 3);
+    for (const std::string_view mark : {" - cop", " - c\xC3\xB3p"})
+        if (const std::size_t copy = lowerCase(name).find(mark); copy != std::string::npos)
+            name.resize(copy);
+    const std::size_t open = name.find('(');
+    const bool isCall = open != std::string::npos && open > 0 && name.back() == ')';
+    if (isCall && name[open - 1] == ' ') {
+        name.resize(open - 1);
+    } else if (isCall) {
+        name.pop_back();
+        std::replace_if(
+            name.begin(), name.end(), [](char c) { return c == '(' || c == ','; }, '_');
+    }
+    for (std::size_t i = 1; i + 1 < name.size(); ++i)
+        if (name[i] == '-' && isAlphanumeric(name[i - 1]) && isDigit(name[i + 1]) &&
+            !(i > 1 && name[i - 1] == 'e' && isDigit(name[i - 2])))
+            name[i] = '_';
+    return name;
+}
+
 }  // namespace
 
 std::vector<std::string> splitWords(const std::string& text) { return split(text, kSeparators); }
@@ -98,7 +123,7 @@ bool isOneWord(const std::string& text) {
 
 std::optional<std::vector<std::string>> wordsOfName(const std::string& fileName) {
     const std::string base(baseName(fileName));
-    std::vector<std::string> words = split(withoutEnding(base), "_ ");
+    std::vector<std::string> words = split(plainName(base), "_ ");
     if (words.empty() || (words.size() == 1 && words[0] == base)) return std::nullopt;
     const ShapeEntry* builtin = shapeOfBuiltin(words[0]);
     const ShapeEntry* shape = builtin != nullptr ? builtin : findShape(words[0]);

@@ -31,4 +31,8 @@ Mesh decodeMesh(std::string_view bytes, const std::string& fileName, Diagnostics
 /// The points of a profile: a PLY file's vertices, or rows of two or three numbers. Throws mesh.*.
 std::vector<glm::dvec3> decodeProfile(std::string_view bytes, const std::string& fileName);
 
+/// Whether a file is a PLY profile to be revolved: all points in z = 0 and no faces, or one or two
+/// that leave points out. False for anything that cannot be read.
+bool isPlyProfile(std::string_view bytes, const std::string& fileName);
+
 }  // namespace farol::generator::io

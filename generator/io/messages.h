@@ -16,6 +16,10 @@ inline constexpr MessageRow kMeshMessages[] = {
      "the faces of the PLY file have no \"property\" line; read as \"property list uchar int "
      "vertex_indices\""},
     {"mesh.assumed/base", "the indices of the OBJ file count from 0; OBJ counts from 1"},
+    {"mesh.assumed/profile",
+     "\"{file}\" is a profile, points without a surface; drawn turned about Y, write "
+     "revolve=\"{copies}\" in <model>",
+     {"pawn.ply", "65"}},
     {"mesh.checksum",
      "the binary mesh is damaged: its checksum differs; copy the file again, or make it anew"},
     {"mesh.count/elements", "the PLY header has more than {most} elements", {"32"}},
@@ -64,7 +68,6 @@ inline constexpr MessageRow kMeshMessages[] = {
     {"mesh.empty/triangles", "the mesh file has no triangles"},
     {"mesh.empty/vertices", "the mesh file has no vertices"},
     {"mesh.flat", "no triangle of \"{file}\" has an area; nothing of it can be seen", {"box.obj"}},
-    {"mesh.empty/triangles", "the mesh file holds no triangles that can be seen"},
     {"mesh.format/binary", "the binary mesh has parts that this version does not know"},
     {"mesh.format/block",
      "a block of {count} numbers a line; expected normals, texture coordinates or indices",

@@ -435,4 +435,20 @@ RawMesh decodePly(std::string_view bytes, const std::string& fileName, bool face
     return mesh;
 }
 
+bool isPlyProfile(std::string_view bytes, const std::string& fileName) {
+    constexpr std::size_t kMostFaces = 2;
+    if (!looksLikePly(bytes)) return false;
+    try {
+        for (const PlyElement& element : parsePlyHeader(bytes, fileName).elements)
+            if (element.name != "vertex" && element.count > kMostFaces) return false;
+        const RawMesh mesh = decodePly(bytes, fileName, false);
+        if (!mesh.indices.empty()) return isProfileWithDummy(mesh);
+        return mesh.positions.size() > 1 &&
+               std::all_of(mesh.positions.begin(), mesh.positions.end(),
+                           [](const glm::dvec3& p) { return p.z == 0.0; });
+    } catch (const Error&) {
+        return false;  // reported where the mesh is loaded
+    }
+}
+
 }  // namespace farol::generator::io

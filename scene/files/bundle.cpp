@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <iterator>
+#include <optional>
 #include <set>
 #include <span>
 #include <vector>
 
 #include "core/digest.h"
 #include "core/text.h"
+#include "core/utf16.h"
 #include "scene/files/spelling.h"
 #include "scene/messages.h"
 
@@ -33,8 +35,11 @@ std::vector<std::string> documentsOf(const Assets& files, const std::vector<std:
     return documents;
 }
 
-/// Adds the base names that a text may mean: what stands in quotes, and each word.
+/// Adds the base names that a text may mean: what stands in quotes, each word, and the ends of
+/// lines.
 void addNames(std::string_view text, std::set<std::string>& names) {
+    const std::optional<std::string> wide = utf16ToUtf8(text);
+    if (wide) text = *wide;
     constexpr std::size_t kLongest = 1024;
     const auto add = [&](std::string_view word) {
         word = trimmed(word);
@@ -47,7 +52,15 @@ void addNames(std::string_view text, std::set<std::string>& names) {
             names.insert(spelling::folded(part) + ".patch");
     };
     for (const std::string_view word : split(text, " \t\r\n\"'<>=,;")) add(word);
-    for (const std::string_view line : split(text, "\"'\r\n")) add(line);
+    // Names with blanks, also behind the words of a material library: "map_Kd -s 1 1 1 my
+    // wood.png".
+    constexpr int kMostWords = 12;
+    for (std::string_view line : split(text, "\"'\r\n"))
+        for (int i = 0; i < kMostWords && !line.empty(); ++i) {
+            add(line);
+            const std::size_t blank = line.find_first_of(" \t");
+            line = blank == std::string_view::npos ? "" : trimmed(line.substr(blank));
+        }
 }
 
 bool isMesh(const std::string& path) {
@@ -62,6 +75,8 @@ bool isMesh(const std::string& path) {
 }  // namespace
 
 bool beginsAsScene(std::string_view text) {
+    const std::optional<std::string> wide = utf16ToUtf8(text);
+    if (wide) text = *wide;
     static constexpr std::string_view kRoots[] = {"world", "scene", "xmls", "includes"};
     for (std::size_t at = text.find('<'); at != std::string_view::npos; at = text.find('<', at)) {
         text.remove_prefix(at + 1);

@@ -75,7 +75,8 @@ constexpr AttributeSpec kLights[] = {
     text("name", "", "", ""),
 };
 constexpr AttributeSpec kLight[] = {
-    word("type", "", "point|positional directional|direction|sun spot|spotlight", "by the others",
+    word("type", "", "point|positional directional|direction|dir|sun spot|spotlight",
+         "by the others",
          "point: `pos`. directional: `dir` points *towards* the light. spot: `pos`, `dir` is where "
          "it shines"),
     number(
@@ -142,7 +143,7 @@ constexpr AttributeSpec kScatter[] = {
     whole("seed", "", "counted", "the same number gives the same places", {0, 1e9}),
 };
 constexpr AttributeSpec kModel[] = {
-    text("file", "src", "", "a mesh file, or one to be generated: see below"),
+    text("file", "src path filename", "", "a mesh file, or one to be generated: see below"),
     text("command", "", "", "a shape and its arguments instead: `sphere 1 32 16`"),
     whole("revolve", "", "", "copies of the profile `file` turned about Y", {3, 4096}),
     text("texture", "tex", "", "short for `<texture file>`"),
@@ -276,7 +277,7 @@ constexpr ElementSpec kElements[] = {
     {"camera", "", kNone, "position lookAt up projection",
      "`<position>`, `<lookAt>`, `<up>` and `<projection>`, each at most once."},
     {"position", "pos eye", kVector, "", "Where the eye is."},
-    {"lookAt", "look target center centre", kVector, "",
+    {"lookAt", "look look_at target center centre", kVector, "",
      "The point that the camera looks at: `x`, `y`, `z`, 0 if left out.", "position"},
     {"up", "", kVector, "",
      "The direction that is up in the image: `x`, `y`, `z`; 0 1 0 without the element, 0 for a "

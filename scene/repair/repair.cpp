@@ -1,6 +1,7 @@
 #include "scene/repair/repair.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "core/number.h"
 #include "core/text.h"
@@ -51,7 +52,10 @@ bool isGenerator(std::string_view word) {
     std::string program = lowerCase(baseName(unquoted(word)));
     if (program.size() > 4 && program.substr(program.size() - 4) == ".exe")
         program.resize(program.size() - 4);
-    return program == "generator";
+    if (program.ends_with(".py")) program.resize(program.size() - 3);
+    static constexpr std::string_view kNames[] = {"generator", "generate", "gerador", "generador",
+                                                  "gen"};
+    return std::find(std::begin(kNames), std::end(kNames), program) != std::end(kNames);
 }
 
 bool isNumber(std::string_view word) { return parseNumber(word).problem.empty(); }
@@ -82,13 +86,17 @@ bool takeCommand(std::string_view line, std::map<std::string, std::vector<std::s
                  bool& conflict) {
     constexpr std::size_t kMaxWords = 32, kLongest = 1024;
     if (line.size() > kLongest) return false;
-    const std::vector<std::string_view> words = split(line);
+    std::vector<std::string_view> words = split(line);
+    // Before the file: "generator sphere 1 8 8 > ball.3d", "-o ball.3d".
+    if (words.size() > 1 && (words.end()[-2] == ">" || words.end()[-2] == "-o"))
+        words.erase(words.end() - 2);
     const std::size_t begin = commandAt(words);
     if (words.size() < begin + 3 || words.size() > begin + kMaxWords) return false;
     const std::string file(baseName(unquoted(words.back())));
     if (file.empty()) return false;
-    const std::vector<std::string> arguments(words.begin() + static_cast<std::ptrdiff_t>(begin) + 1,
-                                             words.end() - 1);
+    std::vector<std::string> arguments;
+    for (std::size_t i = begin + 1; i + 1 < words.size(); ++i)
+        arguments.emplace_back(unquoted(words[i]));
     const auto [entry, isNew] = comments.emplace(file, arguments);
     conflict = conflict || (!isNew && entry->second != arguments);
     return true;
@@ -98,7 +106,11 @@ bool takeCommand(std::string_view line, std::map<std::string, std::vector<std::s
 bool takeLine(std::string_view line, std::map<std::string, std::vector<std::string>>& comments,
               bool& conflict) {
     // More markup in it: something was commented out, or the comment swallowed its neighbours.
-    if (line.find_first_of("<>") != std::string_view::npos ||
+    const std::size_t mark = line.find_first_of("<>");
+    const bool isRedirect = mark != std::string_view::npos && mark > 0 &&
+                            line.substr(mark - 1, 3) == " > " &&
+                            line.find_first_of("<>", mark + 1) == std::string_view::npos;
+    if ((mark != std::string_view::npos && !isRedirect) ||
         line.find("--") != std::string_view::npos)
         return false;
     bool any = false;
@@ -141,6 +153,8 @@ Repaired repair(std::string_view source, const LineIndex& lines, const ReadLimit
                     lines.at(0));
     if (trimmed(source).empty() || trimmed(source) == "\xEF\xBB\xBF")
         throw Error(message<"xml.empty">(), lines.at(0));
+    // Some programs write the rest of a buffer, too.
+    while (source.ends_with('\0')) source.remove_suffix(1);
     if (const std::size_t nul = source.find('\0'); nul != std::string_view::npos)
         throw Error(message<"xml.character/nul">(), lines.at(nul));
     return RepairScanner(source, lines, limits, findings).run();

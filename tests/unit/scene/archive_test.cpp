@@ -41,6 +41,12 @@ std::string gzip(const std::string& bytes) {
     return packed;
 }
 
+std::string inUtf16(const std::string& text) {
+    std::string wide = "\xFF\xFE";
+    for (const char c : text) (wide += c) += '\0';
+    return wide;
+}
+
 constexpr Packing kAll[] = {Packing::zip, Packing::zipStored, Packing::tar, Packing::tarGz};
 
 }  // namespace
@@ -233,12 +239,14 @@ TEST_CASE("of a whole project the files that its documents name are kept") {
          "<world><model file=\"Hare.OBJ\" texture='my%20skin.png'/>"
          "<!-- generator patch own.patch 2 --><model file=bezier_comet_3.3d/></world>"},
         {"p/m/hare.obj", "mtllib hare.mtl\nv 0 0 0\n"},
-        {"p/m/hare.mtl", "newmtl a\nmap_Kd fur.png\n"},
-        {"p/t/fur.png", "f"},
+        {"p/m/hare.mtl", "newmtl a\nmap_Kd -s 2 2 1 winter fur.png\n"},
+        {"p/t/winter fur.png", "f"},
         {"p/t/my skin.png", "s"},
         {"p/own.patch", "1"},
         {"p/comet.patch", "1"},
-        {"p/other.xml", "<world/>"}};
+        {"p/other.xml", "<world/>"},
+        {"p/wide.png", "w"},
+        {"p/wide.xml", inUtf16("<world><model texture=\"wide.png\"/></world>")}};
     for (int i = 0; i < 400; ++i)
         files.push_back({"p/build/o" + std::to_string(i) + ".o", "object"});
     for (const Packing packing : kAll) {
@@ -247,8 +255,8 @@ TEST_CASE("of a whole project the files that its documents name are kept") {
         std::string names;
         for (const auto& [path, content] : bundle.files) names += path + " ";
         CHECK(names ==
-              "comet.patch m/hare.mtl m/hare.obj other.xml own.patch scene.xml t/fur.png "
-              "t/my skin.png ");
+              "comet.patch m/hare.mtl m/hare.obj other.xml own.patch scene.xml t/my skin.png "
+              "t/winter fur.png wide.png wide.xml ");
     }
 }
 

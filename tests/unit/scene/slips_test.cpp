@@ -54,6 +54,28 @@ TEST_CASE("the number that begins a value is read, with a warning that names it"
     CHECK(window.scene->window->width == 300);
 }
 
+TEST_CASE("the generator is called by other names, and its file stands behind a mark") {
+    for (const char* comment :
+         {"./gerador sphere 1 8 8 a.3d", "generate sphere 1 8 8 a.3d",
+          "python3 generator.py sphere 1 8 8 a.3d", "generator \"sphere\" 1 8 8 \"a.3d\"",
+          "./generator sphere 1 8 8 > a.3d", "gen sphere 1 8 8 -o a.3d"}) {
+        CAPTURE(comment);
+        const Outcome outcome = tryRead("<!-- " + std::string(comment) + " --><world/>");
+        REQUIRE(outcome.scene);
+        const auto& comments = outcome.scene->generatorComments;
+        REQUIRE(comments.count("a.3d") == 1);
+        CHECK(comments.at("a.3d") == std::vector<std::string>{"sphere", "1", "8", "8"});
+    }
+    for (const char* other : {"a gene > a.3d", "generator sphere 1 > 2 > a.3d", "gen <a> 1 a.3d"})
+        CHECK(tryRead("<!-- " + std::string(other) + " --><world/>")
+                  .scene.value()
+                  .generatorComments.empty());
+}
+
+TEST_CASE("NUL bytes behind a document are left out") {
+    CHECK(isClean(tryRead(model("") + std::string(3, '\0'))));
+}
+
 TEST_CASE("a length that must be over 0 and is too small becomes the smallest, with a warning") {
     const Outcome tiny = tryRead(camera("<position z=\"5\"/><projection near=\"1e-10\"/>"));
     REQUIRE(tiny.scene);

@@ -92,13 +92,29 @@ const baseName = (path: string): string => path.replace(/^.*[/\\]/, '');
 
 /** The base names that a text may mean: what stands in quotes, and each word. */
 function namesIn(text: string, names: Set<string>): void {
-  for (const word of [...text.split(/[\s"'<>=,;]+/), ...text.split(/["'\r\n]+/)]) {
+  // Names with blanks, also behind the words of a material library: "map_Kd -s 1 1 1 my wood.png".
+  const mostWords = 12;
+  const ends = text.split(/["'\r\n]+/).flatMap((line) => {
+    const words = line.trim().split(/[ \t]+/);
+    return words.slice(0, mostWords).map((_, i) => words.slice(i).join(' '));
+  });
+  for (const word of [...text.split(/[\s"'<>=,;]+/), ...ends]) {
     const name = baseName(word.trim().replace(/\/+$/, '')); // the slash of an empty tag
     if (name === '' || name.length > 1024) continue;
     names.add(folded(name));
     // "bezier_comet_10.3d" means comet.patch.
     for (const part of name.split('_')) names.add(`${folded(part)}.patch`);
   }
+}
+
+const isLibraryUser = ({ path }: NamedFile): boolean => /\.(obj|mtl)$/i.test(path);
+
+/** A document's text, or the beginning of a mesh, where libraries are named. */
+async function textOf(file: File): Promise<string> {
+  const bytes = await (/\.xml$/i.test(file.name) ? file : file.slice(0, 65536)).arrayBuffer();
+  const [first, second] = new Uint8Array(bytes);
+  const coding = first === 0xff && second === 0xfe ? 'utf-16le' : first === 0xfe && second === 0xff ? 'utf-16be' : 'utf-8';
+  return new TextDecoder(coding).decode(bytes);
 }
 
 /**
@@ -109,12 +125,14 @@ export async function neededFiles(files: readonly NamedFile[]): Promise<NamedFil
   const bytes = files.reduce((sum, { file }) => sum + file.size, 0);
   if (files.length <= wholeFiles && bytes <= maxBytes) return [...files];
   const isDocument = (one: NamedFile): boolean => /\.xml$/i.test(one.path) && one.file.size <= 1048576;
-  const taken = new Set(files.filter(isDocument)), names = new Set<string>();
-  for (const { file } of taken) namesIn(await file.text(), names);
+  const documents = files.filter(isDocument), names = new Set<string>();
+  // Without a document the meshes are shown: see bundleOf.
+  const taken = new Set(documents.length > 0 ? documents : files.filter((one) => meshEndings.test(one.path)));
+  for (const one of taken) if (documents.length > 0 || isLibraryUser(one)) namesIn(await textOf(one.file), names);
   for (let round = 0; round < 3; ++round) { // meshes name libraries, which name pictures
     const fresh = files.filter((one) => !taken.has(one) && names.has(folded(baseName(one.path))));
     for (const one of fresh) taken.add(one);
-    for (const { path, file } of fresh) if (/\.(obj|mtl)$/i.test(path)) namesIn(await file.slice(0, 65536).text(), names);
+    for (const one of fresh) if (isLibraryUser(one)) namesIn(await textOf(one.file), names);
   }
   return files.filter((one) => taken.has(one));
 }

@@ -134,5 +134,37 @@ export async function drop(page, files, selector = 'body') {
   await page.dispatchEvent(selector, 'drop', { dataTransfer: data });
 }
 
+/**
+ * Drops a folder of files [{ path, bytes }]. Scripts cannot make a folder's entry, so that the page is given ones
+ * that answer as a browser's do: at most a hundred of a folder's entries at a time.
+ */
+export async function dropFolder(page, files, selector = 'body') {
+  const data = await page.evaluateHandle((list) => {
+    const fileEntry = (path, base64) => ({
+      isFile: true, isDirectory: false, fullPath: `/${path}`,
+      file: (done) => done(new File([Uint8Array.from(atob(base64), (c) => c.charCodeAt(0))], path.replace(/^.*\//, ''))),
+    });
+    const folderEntry = (path) => ({
+      isFile: false, isDirectory: true, fullPath: `/${path}`,
+      createReader: () => {
+        const inside = list.filter((one) => one.path.startsWith(`${path}/`));
+        const names = [...new Set(inside.map((one) => one.path.slice(path.length + 1).split('/')[0]))];
+        return {
+          readEntries: (done) => done(names.splice(0, 100).map((name) => {
+            const own = inside.find((one) => one.path === `${path}/${name}`);
+            return own ? fileEntry(own.path, own.base64) : folderEntry(`${path}/${name}`);
+          })),
+        };
+      },
+    });
+    const transfer = new DataTransfer();
+    transfer.items.add(new File([], 'folder'));
+    DataTransferItem.prototype.webkitGetAsEntry = () => folderEntry(list[0].path.split('/')[0]);
+    return transfer;
+  }, files.map(({ path, bytes }) => ({ path, base64: Buffer.from(bytes).toString('base64') })));
+  await page.dispatchEvent(selector, 'dragover', { dataTransfer: data });
+  await page.dispatchEvent(selector, 'drop', { dataTransfer: data });
+}
+
 export const close = (actual, expected, tolerance, what) =>
   assert.ok(Math.abs(Number(actual) - expected) <= tolerance, `${what}: ${actual} is not ${expected}`);

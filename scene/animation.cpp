@@ -44,10 +44,10 @@ glm::dmat4 turnMatrix(const glm::dvec3& axis, double angleDeg) {
 /// The part of `v` across the unit vector `x`, of unit length; zero where there is hardly any.
 glm::dvec3 across(const glm::dvec3& v, const glm::dvec3& x) {
     // Below this share of v's length, rounding decides the direction.
-    constexpr double kLeast = 1e-6;
+    constexpr double kMinShare = 1e-6;
     const glm::dvec3 rest = v - x * glm::dot(v, x);
     const double length = glm::length(rest);
-    return length > kLeast * glm::length(v) ? rest / length : glm::dvec3(0.0);
+    return length > kMinShare * glm::length(v) ? rest / length : glm::dvec3(0.0);
 }
 
 /// An orthonormal frame that moves along a curve: x the tangent, y the up, z = x cross y.
@@ -217,7 +217,7 @@ std::vector<glm::dmat4> scatterMatrices(const Scatter& scatter, std::uint64_t se
     const double inner = std::min(scatter.radiusMin, scatter.radiusMax);
     const double outer = std::max(scatter.radiusMin, scatter.radiusMax);
     for (int i = 0; i < scatter.count; ++i) {
-        const double share = random.unit();  // of the ring's area, so that it is evenly full
+        const double share = random.unit();  // of the ring's area: evenly distributed
         const double radius = std::sqrt(inner * inner + share * (outer * outer - inner * inner));
         const double angle = 2.0 * std::numbers::pi * random.unit();
         const double y = scatter.yMin + random.unit() * (scatter.yMax - scatter.yMin);

@@ -4,20 +4,22 @@
 #include <limits>
 #include <variant>
 
+#include "scene/messages.h"
+
 namespace farol::scene {
 namespace {
 
-constexpr std::uint64_t kMany = std::numeric_limits<std::uint64_t>::max();
+constexpr std::uint64_t kUnlimited = std::numeric_limits<std::uint64_t>::max();
 
 std::uint64_t saturatedSum(std::uint64_t a, std::uint64_t b) {
-    return a > kMany - b ? kMany : a + b;
+    return a > kUnlimited - b ? kUnlimited : a + b;
 }
 
 std::uint64_t saturatedProduct(std::uint64_t a, std::uint64_t b) {
-    return b != 0 && a > kMany / b ? kMany : a * b;
+    return b != 0 && a > kUnlimited / b ? kUnlimited : a * b;
 }
 
-/// What a group becomes, copies counted.
+/// The models of a group with all its copies.
 struct Expanded {
     std::uint64_t models = 0, placed = 0;
 
@@ -48,16 +50,14 @@ class Counter {
 
     void refuseIfOver(const Expanded& all, const Location& where) {
         if (refused_ || !all.isOver()) return;
-        refused_ = true;  // what is round it is over for the same reason
+        refused_ = true;  // the groups round it are over for the same reason
         const bool models = all.models > kMaxInstances;
         const std::uint64_t number = models ? all.models : all.placed;
-        findings_.error(
-            "limit.instances", where,
-            "the scattered copies make " +
-                (number == kMany ? std::string("more than 1e19") : std::to_string(number)) +
-                (models ? " models; at most " + std::to_string(kMaxInstances)
-                        : " groups and curve points; at most " + std::to_string(kMaxPlaced)) +
-                " are drawn (fix: lower a \"count\", or nest fewer scatters)");
+        const auto count = "count"_arg =
+            number == kUnlimited ? "more than 1e19" : std::to_string(number);
+        findings_.error(models ? message<"limit.instances/copies">(count, "max"_arg = kMaxInstances)
+                               : message<"limit.instances/places">(count, "max"_arg = kMaxPlaced),
+                        where);
     }
 
   private:

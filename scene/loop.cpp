@@ -16,12 +16,12 @@ class Loop {
     void add(double seconds) {
         const double ms = std::abs(seconds) * 1000.0;
         if (loopMs_ == 0) return;
-        if (!(ms >= 0.5) || ms > kLongestLoopSeconds * 1000.0) {
+        if (!(ms >= 0.5) || ms > kMaxLoopSeconds * 1000.0) {
             loopMs_ = 0;
             return;
         }
         loopMs_ = std::lcm(loopMs_, static_cast<std::int64_t>(std::llround(ms)));
-        if (static_cast<double>(loopMs_) > kLongestLoopSeconds * 1000.0) loopMs_ = 0;
+        if (static_cast<double>(loopMs_) > kMaxLoopSeconds * 1000.0) loopMs_ = 0;
         moves_ = true;
     }
     void add(const Color& color) {

@@ -8,9 +8,9 @@ namespace farol::scene {
 
 /// The time after which every motion and colour of the scene is where it was: the least common
 /// multiple of all laps, turns and hue cycles, taken to the millisecond. Nothing for a scene that
-/// stands still, or whose loop is longer than kLongestLoopSeconds.
+/// stands still, or whose loop is longer than kMaxLoopSeconds.
 std::optional<double> loopSeconds(const Scene& scene);
 
-inline constexpr double kLongestLoopSeconds = 3600.0;
+inline constexpr double kMaxLoopSeconds = 3600.0;
 
 }  // namespace farol::scene

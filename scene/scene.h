@@ -38,7 +38,7 @@ struct Material {
     bool operator==(const Material&) const = default;
 };
 
-/// What a model without colours has: the course's 200/50, OpenGL's 0.8/0.2 in the other dialects.
+/// Returns a material without colours: the course's 200/50, OpenGL's 0.8/0.2 in other dialects.
 inline Material defaultMaterial(Dialect dialect) {
     Material material;
     if (dialect != Dialect::course) {
@@ -51,7 +51,7 @@ inline Material defaultMaterial(Dialect dialect) {
 enum class LightType { point, directional, spot };
 inline constexpr EnumWords<LightType, LightType::spot> kLightTypeWords{"point", "directional",
                                                                        "spot"};
-/// What the light's position and direction are relative to: its group (world) or the viewer.
+/// The space of a light's position and direction: its group (world) or the viewer (camera).
 enum class LightSpace { world, camera };
 
 struct Light {
@@ -207,7 +207,7 @@ struct Skybox {
     Location where;
 };
 
-/// What a scene asks of its picture; a request's own options win.
+/// The image settings of a scene; options of a request win.
 struct RenderSettings {
     std::optional<Shading> shading;
     std::optional<int> samples;

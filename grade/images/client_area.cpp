@@ -7,10 +7,10 @@
 namespace farol::grade {
 namespace {
 
-constexpr int kLeastTitle = 12, kMostTitle = 80;  // px
-constexpr int kMostBorder = 12;                   // px
-constexpr int kSameLevels = 12;                   // of 255: title bars and borders have gradients
-constexpr int kCorner = 10;                       // px of round corners, left out at either end
+constexpr int kMinTitle = 12, kMaxTitle = 80;  // px
+constexpr int kMaxBorder = 12;                 // px
+constexpr int kSameLevels = 12;                // of 255: title bars and borders have gradients
+constexpr int kCorner = 10;                    // px of round corners, left out at either end
 
 class Screenshot {
   public:
@@ -60,23 +60,23 @@ class Screenshot {
 
     /// The first row below the title bar; 0 where there is none.
     int titleBottom() const {
-        constexpr double kMostOfRow = 0.55;  // a long title leaves about as much
-        constexpr double kWritten = 0.003;   // least share of pixels that are of another colour
-        constexpr int kFrameAbove = 3;       // px
-        if (image_.width < 64 || image_.height < 2 * kMostTitle) return 0;
+        constexpr double kMaxOfRow = 0.55;  // a long title leaves about as much
+        constexpr double kWritten = 0.003;  // least share of pixels that are of another colour
+        constexpr int kFrameAbove = 3;      // px
+        if (image_.width < 64 || image_.height < 2 * kMaxTitle) return 0;
         int first = 0;
         while (first < kFrameAbove && !same(dominant(first).first, dominant(first + 1).first))
             ++first;
         const std::uint8_t* color = dominant(first).first;
         double written = 0.0;
         int y = first;
-        for (; y <= kMostTitle; ++y) {
+        for (; y <= kMaxTitle; ++y) {
             const auto [here, share] = dominant(y);
-            if (!same(here, color) || share < kMostOfRow) break;
+            if (!same(here, color) || share < kMaxOfRow) break;
             written += 1.0 - share;
         }
         const int rows = y - first;
-        if (rows < kLeastTitle || y > kMostTitle || written / rows < kWritten) return 0;
+        if (rows < kMinTitle || y > kMaxTitle || written / rows < kWritten) return 0;
         return y;
     }
 
@@ -90,7 +90,7 @@ class Screenshot {
             return columns ? at(line, along) : at(along, line);
         };
         int found = 0;
-        for (int width = 1; width <= kMostBorder; ++width) {
+        for (int width = 1; width <= kMaxBorder; ++width) {
             const int line = outermost + inwards * (width - 1);
             int slow = 0, differs = 0, all = 0;
             for (int i = begin + 1; i < end; ++i, ++all) {
@@ -117,11 +117,11 @@ Rectangle clientArea(const image::Image& screenshot,
     if (!expected) return area;
     // Borders as dark as the content are not seen: the frame is as wide left as right.
     const int wide = area.width - expected->width, high = area.height - expected->height;
-    if (wide > 0 && wide <= 2 * kMostBorder) {
+    if (wide > 0 && wide <= 2 * kMaxBorder) {
         area.x += wide / 2;
         area.width = expected->width;
     }
-    if (high > 0 && high <= (area.y > 0 ? kMostBorder : kMostTitle + kMostBorder)) {
+    if (high > 0 && high <= (area.y > 0 ? kMaxBorder : kMaxTitle + kMaxBorder)) {
         if (area.y == 0) area.y = std::max(0, high - wide / 2);
         area.height = expected->height;
     }

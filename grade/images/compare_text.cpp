@@ -1,4 +1,4 @@
-// How comparisons are asked for and told of in text.
+// The text forms of requests for comparisons and of their results.
 #include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>

@@ -118,7 +118,7 @@ constexpr Sensitivity kAchromatic{1.0, 0.0047, 0.0, 1e-5};
 constexpr Sensitivity kRedGreen{1.0, 0.0053, 0.0, 1e-5};
 constexpr Sensitivity kBlueYellow{34.1, 0.04, 13.5, 0.025};
 
-/// What lies farther out weighs less than a float's last place.
+/// Pixels farther out weigh less than a float's last place.
 constexpr double kSigmas = 6.0;
 
 /// The wide filter's reach in px: three of its deviations.

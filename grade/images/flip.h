@@ -14,7 +14,7 @@ namespace farol::grade {
 /// Of a 0.7 m wide screen with 3840 pixels seen from 0.7 m, as in the paper.
 inline constexpr double kPixelsPerDegree = 67.0;
 
-/// What FLIP makes of one picture. One reference serves many comparisons.
+/// The FLIP features of one image. One reference serves many comparisons.
 struct FlipPicture {
     /// Of display values 0..1 (values outside are clamped); sRGB is decoded here.
     /// `pixelsPerDegree` 1..500.

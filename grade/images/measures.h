@@ -7,7 +7,7 @@
 #include "grade/images/mask.h"
 #include "image/image.h"
 
-/// What of two pictures of one size a grade goes by. All shares are 0 (alike) to 1.
+/// Measures of two images of one size for a grade. All shares are 0 (alike) to 1.
 namespace farol::grade {
 
 /// By pixel, how far each picture is beyond what the other shows within one pixel: by channel,

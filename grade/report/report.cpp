@@ -142,7 +142,7 @@ bool isNotGraded(const ordered_json& grade) {
     return grade.is_object() && grade.value("refused", false);
 }
 
-/// What a student reads: each loss, then each finding.
+/// The text for a student: each loss, then each finding.
 std::string feedback(const SubmissionResult& one) {
     std::string out;
     const auto line = [&](const std::string& text) { out += (out.empty() ? "" : "\n") + text; };
@@ -169,7 +169,7 @@ std::string feedback(const SubmissionResult& one) {
         if (unexplained > 0.0)
             line(prefix + "unexplained: the pictures differ for a reason that was not found (-" +
                  number(unexplained) + ")");
-        // What is wrong in many places is told once, with its lines.
+        // An error in many places is reported once, with its lines.
         std::vector<std::pair<std::string, std::vector<int>>> told;
         for (const auto& diagnostic : grade.value("diagnostics", ordered_json::array())) {
             if (diagnostic.value("severity", "") != "error" && !(grade.value("penalty", 0.0) > 0.0))

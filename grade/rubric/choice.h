@@ -9,7 +9,7 @@
 
 namespace farol::grade {
 
-/// What is looked for among a submission's files.
+/// The search among a submission's files.
 struct Wanted {
     std::string task;                 ///< its name; empty where there is one task
     std::vector<std::string> others;  ///< names of the other tasks

@@ -11,7 +11,7 @@ using nlohmann::ordered_json;
 
 double twoDigits(double points) { return std::round(points * 100.0) / 100.0; }
 
-/// What is measured, to digits that no machine's arithmetic changes.
+/// A measured value, to digits that no machine's arithmetic changes.
 double sixDigits(double measured) { return std::round(measured * 1e6) / 1e6; }
 
 /// A number, or an object of several.
@@ -54,7 +54,7 @@ ordered_json causesOf(const Grade& grade) {
 }
 
 ordered_json viewsOf(const Grade& grade) {
-    // What the rubric leaves out is not shown: a 0 would say that nothing differs.
+    // Parts that the rubric leaves out are not shown: a 0 would say that nothing differs.
     std::set<const MetricSpec*> judged;
     for (const CriterionGrade& one : grade.criteria) judged.insert(one.metric);
     ordered_json out = ordered_json::array();

@@ -27,8 +27,8 @@ namespace {
 constexpr std::size_t kMeshBytes = std::size_t{128} << 20U;
 constexpr std::size_t kReferences = 8;  // tasks of one class
 constexpr int kJpegQuality = 82;
-constexpr int kNearlyPx = 8;            // a picture of about the window's size was cut by hand
-constexpr std::size_t kMostDrawn = 24;  // causes whose effect is drawn; more are estimated
+constexpr int kNearlyPx = 8;           // a picture of about the window's size was cut by hand
+constexpr std::size_t kMaxDrawn = 24;  // causes whose effect is drawn; more are estimated
 
 /// Names a scene and all its files.
 std::string identityOf(const render::Job& job) {
@@ -56,7 +56,7 @@ bool differs(const image::Image& a, const image::Image& b) {
            std::max(3.0, kShare * static_cast<double>(a.pixels.size() / 4));
 }
 
-/// What was handed out stands behind the job's own files; nothing where the rubric lends none.
+/// Puts the files that were handed out behind the job's own; null where the rubric has "lend" off.
 std::shared_ptr<const LentAssets> lend(render::Job& job, const Reference& reference,
                                        const Rubric& rubric) {
     if (!rubric.lend || !reference.job.assets) return nullptr;
@@ -66,10 +66,10 @@ std::shared_ptr<const LentAssets> lend(render::Job& job, const Reference& refere
     return lent;
 }
 
-/// What it costs that the document could only be read with errors: hundredths. One that no engine
+/// Charges a document that could only be read with errors, in hundredths. One that no engine
 /// opens costs two fifths; a part that is left out costs what is missing then, and some more.
 void chargeRepairs(const Diagnostics& diagnostics, Evidence& evidence) {
-    constexpr double kCannotBeOpened = 40.0, kPart = 6.0, kMostParts = 18.0;
+    constexpr double kCannotBeOpened = 40.0, kPart = 6.0, kMaxParts = 18.0;
     bool isBroken = false;
     double parts = 0.0;
     for (const Diagnostic& one : diagnostics) {
@@ -79,7 +79,7 @@ void chargeRepairs(const Diagnostics& diagnostics, Evidence& evidence) {
         // Files that are missing are causes.
         if (one.code.starts_with("scene.")) parts += kPart;
     }
-    evidence.penalty = isBroken ? kCannotBeOpened : std::min(parts, kMostParts);
+    evidence.penalty = isBroken ? kCannotBeOpened : std::min(parts, kMaxParts);
 }
 
 void append(Diagnostics& to, Diagnostics more) {
@@ -118,7 +118,7 @@ struct Grader::State {
         made.shots = planShots(rubric, prepared->scene, list.bounds, made.timesS, false);
         made.fixed = planShots(rubric, prepared->scene, list.bounds, made.timesS, true);
         FrameParts parts = partsFor(rubric);
-        parts.ids = true;  // what each object is worth
+        parts.ids = true;  // the worth of each object
         std::vector<std::vector<std::uint32_t>> numbers;
         for (const Shot& shot : made.shots) {
             Frame frame = drawFrame(renderer, made.job, shot, parts);
@@ -183,7 +183,7 @@ struct Grader::State {
         for (std::uint32_t& id : ids) id = id < to.size() ? to[id] : 0;
     }
 
-    /// What each cause spoils, what is there, and what stays wrong.
+    /// Measures the effect of each cause, the work that is there, and the rest of the errors.
     void gather(const Reference& reference, const render::Prepared& prepared,
                 const Diagnosis& diagnosis, const std::vector<image::Image>& handedIn,
                 Evidence& evidence) {
@@ -213,7 +213,7 @@ struct Grader::State {
             if (topic == Topic::camera) {
                 const auto camera = diagnosis.mendedBut(static_cast<int>(c)).rest.camera;
                 evidence.spoiled[c] = camera ? painter.spoiledByCamera(*camera) : 1.0;
-            } else if (!isDrawn(cause) || ++drawn > kMostDrawn) {
+            } else if (!isDrawn(cause) || ++drawn > kMaxDrawn) {
                 for (const Fix& fix : cause.fixes)
                     for (const int item : fix.items)
                         evidence.spoiled[c] +=
@@ -241,7 +241,7 @@ struct Grader::State {
         return true;
     }
 
-    static constexpr double kSomePixels = 0.002;  // what the order of triangles changes
+    static constexpr double kSomePixels = 0.002;  // changed by the order of triangles
 
     /// Measures one view by the criteria's metrics, as far as `parts` of both frames are there.
     ViewGrade measure(const std::string& name, double timeS, FramePair& pair,
@@ -395,7 +395,7 @@ Grade Grader::grade(const Subject& reference, const Subject& given, const Rubric
             grade.notGraded = NotGraded{"grade.image", message<"grade.image">().text};
         }
     } catch (const Error& error) {
-        // What the service allows for a request is no fault of the submission's.
+        // Limits of the service for a request are not errors of the submission.
         if (error.code() == "limit.cost") throw;
         const bool isImage = submission.picture.has_value() && !against->screen;
         grade.notGraded = isImage && !rubric.takesImages

@@ -89,7 +89,7 @@ class Grader {
     /// The same arguments give the same grade, whatever was graded before.
     Grade grade(const Subject& reference, const Subject& submission, const Rubric& rubric);
 
-    /// What each view shows of the reference, JPEG, in the order of Grade::views. Throws Error.
+    /// The image of the reference in each view, JPEG, in the order of Grade::views. Throws Error.
     std::vector<std::string> picturesOf(const Subject& reference, const Rubric& rubric);
 
   private:

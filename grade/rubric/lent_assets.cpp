@@ -92,7 +92,7 @@ Diagnostics LentAssets::notes(const scene::Scene& scene) const {
         if (lent_.count(path) != 0)
             out.push_back({Severity::info, "grade.lent", where,
                            farol::quoted(path) +
-                               " is not among the submission's files; the reference's is taken",
+                               " is not among the submission's files; the reference's is used",
                            ""});
     return out;
 }

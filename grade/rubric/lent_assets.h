@@ -12,7 +12,7 @@ namespace farol::grade {
 /// A submission's files, and behind them those that were handed out with the task: students leave
 /// out the pictures and models that everybody has. A file of the submission hides the reference's
 /// of the same name, in whatever folder either is. Documents and .3d meshes are the student's to
-/// make: they are never lent.
+/// make: they are never replaced.
 class LentAssets final : public scene::Assets {
   public:
     LentAssets(std::shared_ptr<const scene::Assets> own,
@@ -25,8 +25,8 @@ class LentAssets final : public scene::Assets {
     void prefetch(const std::vector<std::string>& paths) const override;
     std::string version(const std::string& path) const override;
 
-    /// An info `grade.lent` for each lent file that the scene, which was resolved against these
-    /// files, takes; by path.
+    /// An info `grade.lent` for each file of the reference that the scene, which was resolved
+    /// against these files, takes; by path.
     Diagnostics notes(const scene::Scene& scene) const;
 
   private:

@@ -31,8 +31,8 @@ Measurement flipOf(FramePair& pair) {
 }
 
 Measurement ssimOf(FramePair& pair) {
-    constexpr int kLeast = 2 * kSsimReach + 1;  // px: smaller images have no window
-    if (pair.hasSameColors() || pair.width() < kLeast || pair.height() < kLeast)
+    constexpr int kMinSide = 2 * kSsimReach + 1;  // px: smaller images have no window
+    if (pair.hasSameColors() || pair.width() < kMinSide || pair.height() < kMinSide)
         return {0.0, {1.0}};
     const Plane similar =
         ssim(FloatImage(pair.reference().color), FloatImage(pair.submission().color));

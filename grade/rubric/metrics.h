@@ -17,7 +17,7 @@ namespace farol::grade {
 /// A metric's result for one view.
 struct Measurement {
     double loss = 0.0;            ///< 0 (alike) to 1
-    std::vector<double> columns;  ///< what reports show: one number for each of the columns
+    std::vector<double> columns;  ///< for reports: one number for each of the columns
 };
 
 /// A number of a metric in reports.

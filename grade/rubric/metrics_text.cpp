@@ -1,4 +1,4 @@
-// What is generated of the metrics' table beside code.
+// Texts that are generated from the table of metrics.
 #include "core/text.h"
 #include "grade/rubric/metrics.h"
 

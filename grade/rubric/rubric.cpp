@@ -104,7 +104,7 @@ void describe(Form& form, Rubric& rubric) {
     form.number("strictness", rubric.strictness, 0.1, 10, "Times every loss.");
     form.object("picture", [&](Form& picture) { describePicture(picture, rubric); });
     form.flag("lend", rubric.lend,
-              "Pictures and models that a submission names and lacks are taken from the "
+              "Pictures and models that a submission names and lacks are read from the "
               "reference's files, with a note grade.lent; documents and .3d meshes never are.");
     form.flag(
         "images", rubric.takesImages,

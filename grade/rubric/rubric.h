@@ -31,7 +31,7 @@ struct View {
 };
 inline constexpr EnumWords<View::Kind, View::Kind::orbit> kViewWords{"own", "reference", "orbit"};
 
-/// What a cause tells of the reference's numbers.
+/// How a cause shows the reference's numbers.
 enum class Reveal { words, values };
 inline constexpr EnumWords<Reveal, Reveal::values> kRevealWords{"words", "values"};
 
@@ -60,7 +60,7 @@ struct Rubric {
     double mostPenalty = 10.0;             ///< points
 };
 
-/// What is used where no rubric is given.
+/// The rubric that is used where none is given.
 Rubric defaultRubric();
 
 inline constexpr JsonLimits kRubricJson{.bytes = 262'144, .stringBytes = 4'096};

@@ -54,13 +54,13 @@ CriterionGrade judgeMeasured(const Grade& grade, const Criterion& rule, double m
 
 /// The line and its neighbours, with numbers.
 std::string excerptOf(const std::string& xml, int line) {
-    constexpr std::size_t kLongest = 160;  // bytes of a line
+    constexpr std::size_t kMaxLineBytes = 160;  // bytes of a line
     std::string out;
     std::size_t begin = 0;
     for (int number = 1; begin < xml.size() && number <= line + 1; ++number) {
         const std::size_t end = std::min(xml.size(), xml.find('\n', begin));
         if (number >= line - 1) {
-            std::string text = xml.substr(begin, std::min(end - begin, kLongest));
+            std::string text = xml.substr(begin, std::min(end - begin, kMaxLineBytes));
             while (!text.empty() && (text.back() == '\r' || text.back() == ' ')) text.pop_back();
             out += std::to_string(number) + (number == line ? " > " : "   ") + text + "\n";
         }
@@ -161,8 +161,8 @@ class WorkScore {
             left_[topic] = most_[topic] * evidence.present;
             const double share = one.weight / weights_,
                          usualShare = usualWeight[topic] / usualWeights;
-            constexpr double kMostFactor = 4.0;
-            factor_[topic] = std::min(kMostFactor, usualShare > 0.0 ? share / usualShare : 1.0) *
+            constexpr double kMaxFactor = 4.0;
+            factor_[topic] = std::min(kMaxFactor, usualShare > 0.0 ? share / usualShare : 1.0) *
                              one.perFinding / 0.5;
         }
     }
@@ -183,10 +183,10 @@ class WorkScore {
         for (std::size_t c = 0; c < causes.size(); ++c)
             grade_.causes[c].points = rounded(chargeCause(causes[c], c));
         if (evidence_.unexplained > kFree) {
-            constexpr double kLeast = 3.0, kMost = 45.0;  // hundredths
+            constexpr double kMinCost = 3.0, kMaxCost = 45.0;  // hundredths
             const double share = std::min(1.0, evidence_.unexplained - kFree);
-            grade_.unexplained =
-                rounded(takeFromObjects(hundredths(kLeast + (kMost - kLeast) * std::sqrt(share))));
+            grade_.unexplained = rounded(
+                takeFromObjects(hundredths(kMinCost + (kMaxCost - kMinCost) * std::sqrt(share))));
         }
     }
 

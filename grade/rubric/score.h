@@ -7,7 +7,7 @@
 
 namespace farol::grade {
 
-/// What was measured of a scene against a reference scene.
+/// Measurements of a scene against a reference scene.
 struct Evidence {
     const Diagnosis* diagnosis = nullptr;
     std::vector<double> spoiled;  ///< by cause: share of the weighted work, 0..1

@@ -130,7 +130,7 @@ double costOf(const Kind& kind, double spoiled, std::size_t places) {
     const double single =
         kind.least + (kind.most - kind.least) *
                          std::sqrt(std::clamp(spoiled / static_cast<double>(places), 0.0, 1.0));
-    // What one place would cost that spoils as much is the bound from below.
+    // The cost of one place with the same effect is the lower bound.
     const double whole =
         kind.least + (kind.most - kind.least) * std::sqrt(std::clamp(spoiled, 0.0, 1.0));
     return places > 1 ? std::max(whole, kSeveral * single) : single;

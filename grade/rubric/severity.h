@@ -8,7 +8,7 @@
 
 namespace farol::grade {
 
-/// What a cause is about: criteria of rubrics.
+/// The topics of causes: criteria of rubrics.
 enum class Topic { models, transforms, textures, materials, lights, camera, animation };
 inline constexpr EnumWords<Topic, Topic::animation> kTopicWords{
     "models", "transforms", "textures", "materials", "lights", "camera", "animation"};
@@ -24,7 +24,7 @@ struct Kind {
 
 /// The table of all kinds, by topic. It was written before any submission was marked by it: a slip
 /// that one look at the picture finds costs less than a misunderstanding of how transforms compose;
-/// what changes the whole picture costs about a quarter of the points, never more than a third.
+/// a change of the whole image costs about a quarter of the points, never more than a third.
 std::span<const Kind> kinds();
 
 /// The row of a code. Precondition: it is in the table.
@@ -33,9 +33,9 @@ const Kind& kindOf(const std::string& code);
 /// The table of docs/grading.md.
 std::string kindsMarkdown();
 
-/// What a cause costs, in hundredths: between its kind's least and most by the root of the share of
-/// weighted work that it spoils, 0..1, so that a mistake in a small part still counts; once and a
-/// half where the same slip stands at several places.
+/// Returns the cost of a cause, in hundredths: between its kind's least and most by the root of the
+/// share of weighted work that it spoils, 0..1, so that a mistake in a small part still counts;
+/// once and a half where the same slip stands at several places.
 double costOf(const Kind& kind, double spoiled, std::size_t places);
 
 }  // namespace farol::grade

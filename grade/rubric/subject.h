@@ -9,7 +9,7 @@
 
 namespace farol::grade {
 
-/// What is graded, or graded against: a scene, or a picture of one.
+/// A scene, or an image of one, that is graded or graded against.
 struct Subject {
     /// Of its options only `missing` is used; job.name also names a picture.
     render::Job job;

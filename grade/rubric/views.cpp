@@ -13,7 +13,7 @@
 namespace farol::grade {
 namespace {
 
-constexpr int kMostSide = 512;  // px, where the rubric does not say: details that count are larger
+constexpr int kMaxSide = 512;  // px, where the rubric does not say: details that count are larger
 
 render::PictureOptions basic(const Rubric& rubric, const scene::Scene& reference) {
     render::PictureOptions options;
@@ -25,7 +25,7 @@ render::PictureOptions basic(const Rubric& rubric, const scene::Scene& reference
     glm::ivec2 size(rubric.width.value_or(window.x), rubric.height.value_or(window.y));
     if (!rubric.width && !rubric.height) {
         const double scale =
-            std::min(1.0, kMostSide / static_cast<double>(std::max(size.x, size.y)));
+            std::min(1.0, kMaxSide / static_cast<double>(std::max(size.x, size.y)));
         size = glm::max(glm::ivec2(1), glm::ivec2(glm::round(glm::dvec2(size) * scale)));
     }
     options.width = size.x;

@@ -60,7 +60,7 @@ double Spoiled::share() const {
     double sum = 0.0;
     for (std::size_t i = 0; i < sums_.size(); ++i)
         if (areas_[i] > 0.0) sum += work_.weights[i] * sums_[i] / std::max(areas_[i], 16.0);
-    constexpr double kBeside = 0.5;  // what shows where nothing should
+    constexpr double kBeside = 0.5;  // of objects that show where none should
     return std::clamp(sum + kBeside * background_, 0.0, 1.0);
 }
 

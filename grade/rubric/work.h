@@ -8,7 +8,7 @@
 
 namespace farol::grade {
 
-/// What each object of a reference is worth, and which pixels of its views show it.
+/// The worth of each object of a reference, and the pixels of its views that show it.
 struct Work {
     std::vector<double> weights;  ///< by item; the sum is 1, or 0 where there are none
     /// By view, which item each pixel shows, from 1; 0: none.

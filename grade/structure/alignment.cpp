@@ -6,7 +6,7 @@
 namespace farol::grade {
 namespace {
 
-constexpr std::size_t kMostLinks = 32;
+constexpr std::size_t kMaxLinks = 32;
 
 struct At {
     int node;
@@ -41,7 +41,7 @@ class Aligner {
     }
 
     std::vector<Edit> run() {
-        if (goal_.size() > kMostLinks || own_.size() > kMostLinks) return {};
+        if (goal_.size() > kMaxLinks || own_.size() > kMaxLinks) return {};
         fill();
         return trace();
     }

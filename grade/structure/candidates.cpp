@@ -13,7 +13,7 @@
 namespace farol::grade {
 namespace {
 
-constexpr std::size_t kDeepest = 40;  // deeper chains are placed as a whole
+constexpr std::size_t kMaxDepth = 40;  // deeper chains are placed as a whole
 
 bool canInvert(const glm::dmat4& m) {
     const double d = glm::determinant(m);
@@ -190,7 +190,7 @@ bool CandidateFinder::isWritten(const Pair& pair, const scene::Transform& transf
 std::vector<Candidate> CandidateFinder::find(const Pair& pair) const {
     std::vector<Candidate> out;
     const auto& item = mine_.items[static_cast<std::size_t>(pair.mine)];
-    if (stepsOf(item.node).size() > kDeepest) return out;
+    if (stepsOf(item.node).size() > kMaxDepth) return out;
     addAlignment(pair, out);
     addNumbers(pair, out);
     addInsertions(pair, out);
@@ -234,7 +234,7 @@ void CandidateFinder::addNumbers(const Pair& pair, std::vector<Candidate>& out) 
                 out.push_back({{edit}, edit.slip.effort});
                 continue;
             }
-            edit.slip.right = *value;  // what it looked like was not exact enough
+            edit.slip.right = *value;  // its estimate was not exact enough
             if (reachesBy(pair, {edit})) out.push_back({{edit}, edit.slip.effort + 0.2});
         }
     }
@@ -406,8 +406,8 @@ void CandidateFinder::addPlaces(const Pair& pair, std::vector<Candidate>& out) c
 
 void CandidateFinder::addAlignment(const Pair& pair, std::vector<Candidate>& out) const {
     std::vector<Edit> edits = alignChains(theirs_, pair.theirs, mine_, pair.mine);
-    constexpr std::size_t kMostEdits = 8;
-    if (edits.empty() || edits.size() > kMostEdits || !reachesBy(pair, edits)) return;
+    constexpr std::size_t kMaxEdits = 8;
+    if (edits.empty() || edits.size() > kMaxEdits || !reachesBy(pair, edits)) return;
     // Of what is written otherwise, the fewest that make the difference.
     const std::size_t all = std::size_t{1} << edits.size();
     double least = 1e9;
@@ -431,8 +431,8 @@ std::vector<Candidate> CandidateFinder::findTwo(const Pair& pair) const {
     std::vector<Candidate> out;
     const int own = mine_.items[static_cast<std::size_t>(pair.mine)].node;
     const std::vector<Step> steps = stepsOf(own);
-    constexpr std::size_t kMostOfTwo = 14;
-    if (steps.size() > kMostOfTwo) return out;
+    constexpr std::size_t kMaxOfTwo = 14;
+    if (steps.size() > kMaxOfTwo) return out;
     const Matrices world = productOf(steps, 0, steps.size());
     const std::vector<glm::dmat4> goal = goalOf(pair, world);
     for (std::size_t first = 0; first < steps.size(); ++first)

@@ -24,7 +24,7 @@ std::optional<Transform> asTransform(const glm::dmat4& m, std::size_t kind) {
             if (!std::isfinite(m[column][row])) return std::nullopt;
     const glm::dvec3 offset(m[3]);
     const glm::dmat3 linear(m);
-    constexpr double kLoose = 0.03;  // what rounding in the rest of the chain makes of it
+    constexpr double kLoose = 0.03;  // after rounding in the rest of the chain
     const auto isIdentity = [&] {
         for (int column = 0; column < 3; ++column)
             for (int row = 0; row < 3; ++row)

@@ -21,11 +21,11 @@ struct Diagnosis {
     Outline submitted;          ///< as handed in
     std::vector<Cause> causes;  ///< in the order of the document
     std::vector<Fix> harmless;  ///< other divisions of the same surface: always repaired
-    Matching matching;          ///< once all causes are mended
+    Matching matching;          ///< with all causes repaired
     std::vector<int> missing;   ///< the reference's items that are not there
     double sceneSize = 1.0;
 
-    /// The submission with all causes mended but one; with all, for -1.
+    /// The submission with all causes repaired but one; with all, for -1.
     Outline mendedBut(int cause) const;
 };
 

@@ -142,7 +142,7 @@ class Dresser {
             return;
         }
         const Surface& surface = form.surface;
-        constexpr double kMost = 0.85;  // of the corners: seams and poles are their own
+        constexpr double kMinShare = 0.85;  // of the corners: seams and poles are their own
         const glm::dmat4 way =
             form.isOneForm() && isMadeUpFor ? form.mineFromTheirs : glm::dmat4(1.0);
         const auto apply = [j, a, way](Outline& o) { takeMesh(o, j, a, way); };
@@ -156,8 +156,8 @@ class Dresser {
                 return tellShape(a, b, tell);
             return tell("model.arguments", "its mesh has another size");
         }
-        const bool inward = surface.normalsOpposite > kMost,
-                   reversed = surface.windingReversed > kMost;
+        const bool inward = surface.normalsOpposite > kMinShare,
+                   reversed = surface.windingReversed > kMinShare;
         if (inward && reversed)
             return tell("model.inside-out", "it is inside out: normals and triangles face inward");
         if (reversed)
@@ -165,21 +165,21 @@ class Dresser {
                         "its triangles are clockwise, so that the front is culled and the back is "
                         "seen");
         if (inward) return tell("model.normals-inward", "its normals point inward");
-        if (surface.normalsSame < kMost && surface.normalsUntransposed > kMost)
+        if (surface.normalsSame < kMinShare && surface.normalsUntransposed > kMinShare)
             return tell("model.normal-matrix",
                         "its normals are scaled like positions; they need the inverse transpose");
-        if (surface.normalsSame < kMost && surface.normalsOfFaces > kMost)
+        if (surface.normalsSame < kMinShare && surface.normalsOfFaces > kMinShare)
             return tell("model.flat-normals",
                         "it is flat shaded: its normals are those of the faces");
-        if (surface.normalsSame < kMost) return tell("model.normals", "its normals differ");
-        if (!surface.hasUvs || !textured || surface.uvSame > kMost) return;
-        if (surface.uvUpsideDown > kMost)
+        if (surface.normalsSame < kMinShare) return tell("model.normals", "its normals differ");
+        if (!surface.hasUvs || !textured || surface.uvSame > kMinShare) return;
+        if (surface.uvUpsideDown > kMinShare)
             return tell("texture.upside-down", "its texture is upside down: v runs the other way");
-        if (surface.uvMirrored > kMost)
+        if (surface.uvMirrored > kMinShare)
             return tell("texture.mirrored", "its texture is mirrored: u runs the other way");
-        if (surface.uvBoth > kMost)
+        if (surface.uvBoth > kMinShare)
             return tell("texture.turned", "its texture is turned by half: u and v run backwards");
-        if (surface.uvSwapped > kMost)
+        if (surface.uvSwapped > kMinShare)
             return tell("texture.swapped-uv", "u and v of its texture are exchanged");
         tell("texture.coordinates", "its texture coordinates differ");
     }

@@ -6,7 +6,7 @@
 #include "grade/structure/fix.h"
 #include "grade/structure/places.h"
 
-/// What an item shows at its place: its mesh, its texture, its colours.
+/// The appearance of an item at its place: its mesh, its texture, its colours.
 namespace farol::grade {
 
 /// Fixes of matched items: codes model.*, texture.*, material.*; only of what can be seen: without

@@ -20,7 +20,7 @@ struct Likeness {
 enum class Symmetry { none, axial, ball };
 Symmetry symmetryOf(const Outline::Item& item);
 
-/// What comparisons need of the meshes of a reference; it serves all submissions.
+/// Data of the meshes of a reference for comparisons; it serves all submissions.
 class ReferenceMeshes {
   public:
     explicit ReferenceMeshes(std::shared_ptr<const scene::Assets> assets)

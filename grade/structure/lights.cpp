@@ -187,7 +187,7 @@ class LightSearch {
         return glm::dvec3(glm::inverse(glm::dmat3(poses_[static_cast<std::size_t>(node)])) * world);
     }
 
-    /// Returns true where the light belongs to another group: nothing more is to be said then.
+    /// Returns true where the light belongs to another group: no more is reported then.
     bool comparePlace(const Placed& theirs, const Placed& ours) {
         const Light &wanted = theirLight(theirs), &given = lampOf(ours).light;
         const int lamp = ours.lamp, own = lampOf(ours).node;

@@ -11,10 +11,10 @@
 namespace farol::grade {
 namespace {
 
-constexpr double kStrangers = 1.2;           // from here on two items have nothing in common
-constexpr std::size_t kMostAssigned = 160;   // a side: more are paired greedily
-constexpr std::size_t kMostPairs = 250'000;  // that are weighed against each other
-constexpr std::size_t kMostChain = 24;       // links: longer chains count as unlike
+constexpr double kStrangers = 1.2;          // from here on two items have nothing in common
+constexpr std::size_t kMaxAssigned = 160;   // a side: more are paired greedily
+constexpr std::size_t kMaxPairs = 250'000;  // that are weighed against each other
+constexpr std::size_t kMaxChain = 24;       // links: longer chains count as unlike
 
 const Outline::Item& at(const Side& side, std::size_t index) { return side.outline->items[index]; }
 
@@ -109,7 +109,7 @@ class Matcher {
         for (std::size_t j = 0; j < out_.isExtra.size(); ++j)
             if (out_.isExtra[j]) right.push_back(j);
         if (left.empty() || right.empty()) return;
-        if (left.size() * right.size() > kMostPairs) {
+        if (left.size() * right.size() > kMaxPairs) {
             for (std::size_t k = 0; k < std::min(left.size(), right.size()); ++k)
                 match(left[k], right[k]);
             return;
@@ -122,7 +122,7 @@ class Matcher {
                              static_cast<double>(b) / static_cast<double>(right.size()));
                 costs[a][b] = unlikeness(left[a], right[b]) + 0.05 * order;
             }
-        if (std::max(left.size(), right.size()) <= kMostAssigned) {
+        if (std::max(left.size(), right.size()) <= kMaxAssigned) {
             const std::vector<int> columns = assign(costs, kStrangers);
             for (std::size_t a = 0; a < left.size(); ++a)
                 if (columns[a] >= 0) match(left[a], right[static_cast<std::size_t>(columns[a])]);
@@ -141,7 +141,7 @@ class Matcher {
         const Outline::Item &a = at(theirs_, i), &b = at(mine_, j);
         double sum = 0.0;
         if (b.lacksMesh) {
-            sum += 0.3;  // whatever it looks like
+            sum += 0.3;  // for any appearance
         } else if (!forms_.compare(a, b).isOneForm()) {
             const auto* const entry = a.model.source.shape.entry;
             const bool kin = entry != nullptr && entry == b.model.source.shape.entry;
@@ -182,7 +182,7 @@ class Matcher {
         if (known != distances_.end()) return known->second;
         const auto a = chainOf(*theirs_.outline, theirs), b = chainOf(*mine_.outline, mine);
         double distance = 3.0;
-        if (a.size() <= kMostChain && b.size() <= kMostChain) {
+        if (a.size() <= kMaxChain && b.size() <= kMaxChain) {
             std::vector<double> row(b.size() + 1), above(b.size() + 1);
             for (std::size_t j = 0; j <= b.size(); ++j) above[j] = static_cast<double>(j);
             for (std::size_t i = 1; i <= a.size(); ++i) {

@@ -9,10 +9,10 @@
 namespace farol::grade {
 namespace {
 
-constexpr std::size_t kMostRounds = 60;
-constexpr std::size_t kMostTried = 24;          // items that candidates are made for, a round
-constexpr std::size_t kMostSteps = 40'000'000;  // matrices and corners, in all
-constexpr double kEffort = 0.3;                 // objects that a likely change must bring
+constexpr std::size_t kMaxRounds = 60;
+constexpr std::size_t kMaxTried = 24;          // items that candidates are made for, a round
+constexpr std::size_t kMaxSteps = 40'000'000;  // matrices and corners, in all
+constexpr double kEffort = 0.3;                // objects that a likely change must bring
 
 class Search {
   public:
@@ -23,7 +23,7 @@ class Search {
     }
 
     std::vector<Fix> run() {
-        for (std::size_t round = 0; round < kMostRounds && steps_ < kMostSteps; ++round) {
+        for (std::size_t round = 0; round < kMaxRounds && steps_ < kMaxSteps; ++round) {
             look();
             if (wrong() == 0) break;
             if (!takeBest()) break;
@@ -108,7 +108,7 @@ class Search {
         std::optional<Candidate> best;
         bool hangsOnly = context_.isUnclosed;  // first: they explain most of such a document
         const auto weigh = [&](const Candidate& candidate) {
-            if (steps_ >= kMostSteps) return;
+            if (steps_ >= kMaxSteps) return;
             const Edit::Kind kind = candidate.edits.front().kind;
             if (hangsOnly && (candidate.edits.size() > 1 ||
                               (kind != Edit::Kind::hang && kind != Edit::Kind::hangItem)))
@@ -124,7 +124,7 @@ class Search {
         const auto tryAll = [&] {
             tried = 0;
             for (const Pair& pair : pairs_) {
-                if (pair.isRight || tried++ >= kMostTried) continue;
+                if (pair.isRight || tried++ >= kMaxTried) continue;
                 steps_ += 2'000;
                 for (const Candidate& candidate : finder.find(pair)) weigh(candidate);
             }
@@ -135,7 +135,7 @@ class Search {
         if (!best) {
             tried = 0;
             for (const Pair& pair : pairs_) {
-                if (pair.isRight || tried++ >= kMostTried / 2) continue;
+                if (pair.isRight || tried++ >= kMaxTried / 2) continue;
                 steps_ += 200'000;
                 for (const Candidate& candidate : finder.findTwo(pair)) weigh(candidate);
                 if (best) break;
@@ -157,7 +157,7 @@ class Search {
         fix.who = isItem ? nameOfItem(mine_, edit.item) : nameOfNode(mine_, edit.node);
         fix.where = placeOf(edit);
         fix.apply = [edit](Outline& outline) { applyTo(outline, edit); };
-        // What it is about: everything below.
+        // It concerns everything below.
         for (const Pair& pair : pairs_)
             if (isItem ? pair.mine == edit.item
                        : mine_.isBelow(mine_.items[static_cast<std::size_t>(pair.mine)].node,
@@ -200,7 +200,7 @@ class Search {
         }
     }
 
-    /// What nothing explains stands where the reference has it, by the reference's transforms.
+    /// Moves items that nothing explains to their places, by the reference's transforms.
     void placeRest() {
         const CandidateFinder finder(context_.theirs, mine_, side_.poses, context_.timesS,
                                      context_.sceneSize);

@@ -7,7 +7,7 @@
 
 namespace farol::grade {
 
-/// What the search for causes goes by.
+/// The input of the search for causes.
 struct SearchContext {
     const Outline& theirs;
     const Side& theirSide;
@@ -18,8 +18,8 @@ struct SearchContext {
     bool isUnclosed = false;  ///< an end tag is missing: groups under wrong parents are likely
 };
 
-/// Finds why items do not stand where the reference has them, and mends `mine` step by step: each
-/// step is the change, or the few changes, of its own transforms and groups that bring most items
+/// Finds why items do not stand where the reference has them, and repairs `mine` step by step: each
+/// step is the change, or the few changes, of its transforms and groups that bring most items
 /// to their places for the least effort; until none is left or nothing helps. Bounded by a number
 /// of steps, so that the same document gives the same causes. `matching` is kept up to date.
 std::vector<Fix> explainPlaces(const SearchContext& context, Outline& mine, Matching& matching);

@@ -292,7 +292,7 @@ Slip slipOfCurve(const FollowCurve& mine, const FollowCurve& goal) {
 
 Slip slipBetween(const Transform& mine, const Transform& goal, bool isExact) {
     Slip out;
-    const double more = isExact ? -0.3 : 0.0;  // what the reference writes is likelier meant
+    const double more = isExact ? -0.3 : 0.0;  // the form of the reference is likelier
     if (mine.index() == goal.index()) {
         if (const auto* t = std::get_if<Translate>(&mine))
             out = slipOfVector(t->offset, std::get<Translate>(goal).offset, "translate");

@@ -9,7 +9,7 @@
 
 namespace farol::grade {
 
-/// What is wrong with one transform, where another would be right.
+/// The error of one transform, where another would be right.
 struct Slip {
     std::string code;        ///< "transform.angle-sign"
     std::string what;        ///< "the angle has the wrong sign"

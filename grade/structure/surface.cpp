@@ -12,9 +12,9 @@ namespace {
 
 using generator::Mesh;
 
-constexpr std::size_t kMostVertices = 100'000;
+constexpr std::size_t kMaxVertices = 100'000;
 constexpr double kNearly = 0.98;  // of the corners: seams and poles may be split otherwise
-constexpr double kMostly = 0.9;
+constexpr double kMinShare = 0.9;
 constexpr double kSameNormalCos = 0.9995;  // 1.8 degrees: less than between faces of 64 slices
 constexpr double kNearNormalCos = 0.985;   // 10 degrees: of another division's flank
 constexpr float kSameUv = 0.004F;          // about a texel of 256
@@ -152,11 +152,11 @@ void measureFaces(Surface& out, const Mesh& mine, const std::vector<Corner>& cor
 
 }  // namespace
 
-bool Surface::isOnePlace() const { return isCompared && common > kMostly; }
+bool Surface::isOnePlace() const { return isCompared && common > kMinShare; }
 
 bool Surface::isSame(bool textured) const {
-    return isCompared && common > kNearly && normalsSame > kMostly &&
-           windingReversed < 1 - kMostly && (!hasUvs || !textured || uvSame > kMostly);
+    return isCompared && common > kNearly && normalsSame > kMinShare &&
+           windingReversed < 1 - kMinShare && (!hasUvs || !textured || uvSame > kMinShare);
 }
 
 Surface compareSurfaces(const KnownMesh& known, const Mesh& mine,
@@ -164,7 +164,7 @@ Surface compareSurfaces(const KnownMesh& known, const Mesh& mine,
     Surface out;
     const Mesh& theirs = known.mesh();
     if (theirs.positions().empty() || mine.positions().empty() ||
-        std::max(theirs.positions().size(), mine.positions().size()) > kMostVertices)
+        std::max(theirs.positions().size(), mine.positions().size()) > kMaxVertices)
         return out;
     out.isCompared = true;
     Places places(cornersOf(theirs, glm::dmat4(1.0)));

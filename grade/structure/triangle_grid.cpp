@@ -43,7 +43,7 @@ glm::dvec3 nearestOf(const std::array<glm::dvec3, 3>& t, const glm::dvec3& p) {
 }
 
 constexpr double kFineDivisions = 96;  // of a full turn: facets within 0.05 % of the radius
-constexpr double kFewDivisions = 8;    // a shape with fewer is meant to have edges
+constexpr double kMinDivisions = 8;    // a shape with fewer is meant to have edges
 
 /// The model's mesh; of a curved shape with divisions that are more than the eye counts.
 generator::Mesh fineMesh(const scene::Model& model, const generator::Mesh& mesh,
@@ -56,7 +56,7 @@ generator::Mesh fineMesh(const scene::Model& model, const generator::Mesh& mesh,
     for (std::size_t i = 0; i < fine.arguments.size(); ++i) {
         if (!fine.entry->arguments[i].isLevel()) continue;
         // Its first level goes round; a cone of four slices is a pyramid.
-        if (fine.arguments[i].value < kFewDivisions &&
+        if (fine.arguments[i].value < kMinDivisions &&
             (i == 0 || !fine.entry->arguments[i - 1].isLevel()))
             return mesh;
         fine.arguments[i] = {scene::ShapeArgument::Form::written,
@@ -112,7 +112,7 @@ glm::ivec3 TriangleGrid::gridPlace(const glm::dvec3& place) const {
 
 bool TriangleGrid::near(const glm::dvec3& place, double reach,
                         const std::function<void(const SurfacePoint&)>& each) const {
-    constexpr int kMostMet = 16;
+    constexpr int kMaxMet = 16;
     const glm::ivec3 from = gridPlace(place - glm::dvec3(reach)),
                      to = gridPlace(place + glm::dvec3(reach));
     int met = 0;
@@ -132,7 +132,7 @@ bool TriangleGrid::near(const glm::dvec3& place, double reach,
                         if (!uvs_.empty()) point.uv += static_cast<float>(at[k]) * uvs_[corner];
                     }
                     each(point);
-                    if (++met == kMostMet) return true;
+                    if (++met == kMaxMet) return true;
                 }
     return met > 0;
 }

@@ -11,7 +11,7 @@ namespace farol::scene {
 namespace {
 
 constexpr std::size_t kMaxNested = std::size_t{64} << 20U;  // of archives in the archive, together
-constexpr int kDeepest = 2;                                 // archives in archives
+constexpr int kMaxDepth = 2;                                // archives in archives
 
 [[noreturn]] void differsFrom(const std::string& path) {
     throw Error(message<"bundle.path/twice">("path"_arg = path));
@@ -53,7 +53,7 @@ void ArchiveAssets::open(std::shared_ptr<const std::string> bytes, const std::st
         const auto [known, fresh] = found.try_emplace(path, File{bytes, path, reader.size()});
         if (!fresh && known->second.size != reader.size()) differsFrom(path);
         if (!fresh || !isArchiveName(path)) continue;
-        if (depth < kDeepest && reader.size() <= nestedLeft_) {
+        if (depth < kMaxDepth && reader.size() <= nestedLeft_) {
             nestedLeft_ -= reader.size();
             innerBytes += reader.size();
             inner.try_emplace(path);
@@ -90,12 +90,12 @@ void ArchiveAssets::open(std::shared_ptr<const std::string> bytes, const std::st
 /// Adds the links whose ends are files of the archive to them, under the link's path.
 void ArchiveAssets::follow(const std::map<std::string, std::string>& links,
                            std::map<std::string, File>& files, const std::string& prefix) {
-    constexpr int kMostLinks = 8;  // one after the other
+    constexpr int kMaxLinks = 8;  // one after the other
     std::map<std::string, File> followed;
     for (const auto& [path, first] : links) {
         if (files.count(path) != 0) continue;
         std::string target = first;
-        for (int i = 1; i < kMostLinks && links.count(target) != 0; ++i) target = links.at(target);
+        for (int i = 1; i < kMaxLinks && links.count(target) != 0; ++i) target = links.at(target);
         const auto file = files.find(target);
         if (file == files.end()) {
             note(message<"bundle.link/outside">("path"_arg = uncut(prefix + path)));
@@ -109,8 +109,8 @@ void ArchiveAssets::follow(const std::map<std::string, std::string>& links,
 }
 
 void ArchiveAssets::note(Message text) {
-    constexpr std::size_t kMost = 20;
-    if (findings_.size() < kMost)
+    constexpr std::size_t kMaxFindings = 20;
+    if (findings_.size() < kMaxFindings)
         findings_.push_back(diagnosticOf(Severity::info, std::move(text)));
 }
 
@@ -163,7 +163,7 @@ void ArchiveAssets::prefetch(const std::vector<std::string>& paths) const {
     for (const std::string& path : paths) {
         const auto file = files_.find(path);
         if (file == files_.end() || loaded_.count(path) != 0) continue;
-        // What would be too much is left: reading it alone is the error.
+        // Files over the limit are left out: reading one of them is the error.
         if (file->second.size > allowed_ - used_ - sum) continue;
         sum += file->second.size;
         wanted.push_back(path);

@@ -22,10 +22,10 @@ bool isArchiveName(std::string_view path);
 /// that holds everything is left out of the paths; what isClutter names is not listed. Archives in
 /// the archive, two deep, are folders of their name: "a.zip/scene.xml". Links to files of the
 /// archive are these files; other links, and devices, are left out.
-/// Bounded before memory is taken: entries listed (kMaxListed), bytes unpacked to reach an entry,
-/// and bytes used. `read` throws Error limit.bundle, bundle.damaged, bundle.entry (encrypted, or
-/// packed by a method that is not read), bundle.path (a name twice with different bytes).
-/// Thread-safe.
+/// Bounded before memory is allocated: entries listed (kMaxListed), bytes unpacked to reach an
+/// entry, and bytes used. `read` throws Error limit.bundle, bundle.damaged, bundle.entry
+/// (encrypted, or packed by a method that is not read), bundle.path (a name twice with different
+/// bytes). Thread-safe.
 class ArchiveAssets final : public Assets {
   public:
     /// Throws Error bundle.damaged, bundle.path (absolute or with ".."), limit.bundle.

@@ -40,11 +40,11 @@ std::vector<std::string> documentsOf(const Assets& files, const std::vector<std:
 void addNames(std::string_view text, std::set<std::string>& names) {
     const std::optional<std::string> wide = utf16ToUtf8(text);
     if (wide) text = *wide;
-    constexpr std::size_t kLongest = 1024;
+    constexpr std::size_t kMaxWordBytes = 1024;
     const auto add = [&](std::string_view word) {
         word = trimmed(word);
         while (word.ends_with('/')) word.remove_suffix(1);  // of an empty tag
-        if (word.empty() || word.size() > kLongest) return;
+        if (word.empty() || word.size() > kMaxWordBytes) return;
         names.insert(spelling::folded(baseName(word)));
         names.insert(spelling::folded(baseName(spelling::percentDecoded(word))));
         // "bezier_comet_10.3d" means comet.patch.
@@ -54,9 +54,9 @@ void addNames(std::string_view text, std::set<std::string>& names) {
     for (const std::string_view word : split(text, " \t\r\n\"'<>=,;")) add(word);
     // Names with blanks, also behind the words of a material library: "map_Kd -s 1 1 1 my
     // wood.png".
-    constexpr int kMostWords = 12;
+    constexpr int kMaxWords = 12;
     for (std::string_view line : split(text, "\"'\r\n"))
-        for (int i = 0; i < kMostWords && !line.empty(); ++i) {
+        for (int i = 0; i < kMaxWords && !line.empty(); ++i) {
             add(line);
             const std::size_t blank = line.find_first_of(" \t");
             line = blank == std::string_view::npos ? "" : trimmed(line.substr(blank));

@@ -33,7 +33,7 @@ bool beginsAsScene(std::string_view text);
 /// candidates' names.
 std::string mainOf(const Assets& files);
 
-/// What scenes need of the files `paths`: all of them where there are kMaxBundleFiles and
+/// Returns the files that scenes need of `paths`: all of them where there are kMaxBundleFiles and
 /// `mostBytes` at most; of a whole project the documents (.xml, up to 1 MiB) and the files whose
 /// base name stands in one of them or, of material libraries and their pictures, in a mesh or
 /// library that is named.

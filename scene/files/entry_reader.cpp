@@ -85,15 +85,15 @@ void checkPath(const std::string& path) {
         throw Error(message<"bundle.path">("path"_arg = path));
 }
 
-/// What a link leads to, as EntryReader::link; nothing for a file.
+/// Returns the target of a link, as EntryReader::link; nothing for a file.
 std::optional<std::string> linkOf(archive_entry* entry, const std::string& path) {
-    constexpr std::size_t kLongest = 1024;
+    constexpr std::size_t kMaxTargetBytes = 1024;
     const char* hard = archive_entry_hardlink(entry);
     const char* symbolic =
         archive_entry_filetype(entry) == AE_IFLNK ? archive_entry_symlink(entry) : nullptr;
     if (hard == nullptr && symbolic == nullptr) return std::nullopt;
     const string_view target = hard != nullptr ? hard : symbolic;
-    if (target.empty() || target.front() == '/' || target.size() > kLongest) return "";
+    if (target.empty() || target.front() == '/' || target.size() > kMaxTargetBytes) return "";
     // A hard link's target counts from the top, a symbolic link's from the link's folder.
     std::vector<string_view> parts;
     if (hard == nullptr) {
@@ -113,7 +113,7 @@ std::optional<std::string> linkOf(archive_entry* entry, const std::string& path)
     return nameToUtf8(joined(parts, "/"));
 }
 
-/// Refuses other methods of zip files: they take memory by what the file says of itself.
+/// Refuses other methods of zip files: they allocate memory by sizes that the file gives.
 void checkMethodOf(archive* from, const std::string& path) {
     const std::string format = archive_format_name(from);
     if (format.starts_with("ZIP") && format.find("deflation") == std::string::npos &&
@@ -260,7 +260,7 @@ std::string EntryReader::content(std::size_t left) {
     if (archive_entry_is_encrypted(open_->entry) != 0)
         throw Error(message<"bundle.entry">("path"_arg = path_));
     checkMethodOf(open_->reader.get(), path_);
-    // What stands before an entry of a solid archive is unpacked to reach it.
+    // Entries before one of a solid archive are unpacked to reach it.
     if (size_ > left || (isSolid_ && (before_ > passable_ || size_ > passable_ - before_)))
         tooLarge(packed_);
     std::string content;

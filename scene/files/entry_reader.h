@@ -18,7 +18,7 @@ std::size_t maxUnpackedBytes(std::size_t packed);
 [[noreturn]] void tooManyEntries();
 
 /// The files and links of an archive one by one: zip (stored or deflated), tar, tar.gz, 7z, rar.
-/// Folders, devices and what isClutter names are left out. Bounded before memory is taken: entries,
+/// Folders, devices and what isClutter names are left out. Bounded before allocation: entries,
 /// and bytes unpacked to reach an entry. Throws Error bundle.damaged, bundle.path (absolute or with
 /// ".."), limit.bundle.
 class EntryReader {
@@ -32,7 +32,7 @@ class EntryReader {
     /// skipped.
     bool next();
     const std::string& path() const { return path_; }
-    /// What a link, symbolic or hard, leads to, as a path in the archive: "" where that is outside.
+    /// The target of a link, symbolic or hard, as a path in the archive: "" where that is outside.
     /// Nothing for a file. A link has no content.
     const std::optional<std::string>& link() const { return link_; }
     std::uint64_t size() const { return size_; }  ///< as the archive says; 0 where it does not

@@ -56,7 +56,7 @@ class FileResolver {
         return message<"asset.missing/texture">("file"_arg = file, "fix"_arg = fix);
     }
 
-    /// What was found once holds for every model and texture of the same words in a document:
+    /// A result holds for every model and texture of the same words in a document:
     /// asking the bundle again would repeat its warnings. What is missing is reported at each
     /// place.
     void resolveFile(const std::string& file, std::string& path, Use use, const Location& where) {

@@ -36,7 +36,7 @@ void SceneBuilder::includeInto(pugi::xml_node element, Group& group, bool isRoot
 }
 
 std::optional<Scene> SceneBuilder::include(pugi::xml_node element, std::string& file) {
-    constexpr std::size_t kDeepest = 8;
+    constexpr std::size_t kMaxDepth = 8;
     constexpr int kMaxIncludes = 64;  // ReadSession::includesLeft
     const Values given = values(element, "xml");
     file = given.text("file");
@@ -47,9 +47,9 @@ std::optional<Scene> SceneBuilder::include(pugi::xml_node element, std::string& 
         return std::nullopt;
     }
     const Location where = given.where("file");
-    if (session_.files.size() > kDeepest || --session_.includesLeft < 0) {
+    if (session_.files.size() > kMaxDepth || --session_.includesLeft < 0) {
         findings().error(
-            message<"limit.includes">("max"_arg = kMaxIncludes, "depth"_arg = kDeepest), where);
+            message<"limit.includes">("max"_arg = kMaxIncludes, "depth"_arg = kMaxDepth), where);
         return std::nullopt;
     }
     Diagnostics located;

@@ -54,6 +54,8 @@ void SceneBuilder::light(pugi::xml_node element, Group& group) {
             message<"scene.missing-attribute/light-type">("type"_arg = kLightTypeWords[light.type]),
             at(element));
     warnIfRadians(attributes, "cutoff", "light");
+    if (light.type == LightType::spot && !attributes.has("cutoff") && !attributes.damaged)
+        findings().warn(message<"scene.missing-attribute/light-cutoff">(), at(element));
     light.cutoffDeg = attributes.number("cutoff", 180.0);
     light.exponent = attributes.number("exponent", 0.0);
     colorAttributes(attributes, "diff", light.diffuse);

@@ -21,13 +21,13 @@ std::optional<glm::dvec4> plane(std::string_view text) {
 
 /// "8x8": columns and rows, 1..4096 each.
 std::optional<Chess> chessOf(std::string_view size) {
-    constexpr double kMost = 4096;
+    constexpr double kMaxFields = 4096;
     const std::size_t times = size.find_first_of("xX");
     if (times == std::string_view::npos) return std::nullopt;
     const ParsedNumber columns = parseNumber(size.substr(0, times));
     const ParsedNumber rows = parseNumber(size.substr(times + 1));
     const auto good = [](const ParsedNumber& n) {
-        return n.problem.empty() && n.value >= 1 && n.value <= kMost &&
+        return n.problem.empty() && n.value >= 1 && n.value <= kMaxFields &&
                n.value == static_cast<int>(n.value);
     };
     if (!good(columns) || !good(rows)) return std::nullopt;

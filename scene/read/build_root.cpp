@@ -12,7 +12,7 @@
 namespace farol::scene {
 namespace {
 
-constexpr std::size_t kLongestTitle = 200;  ///< bytes
+constexpr std::size_t kMaxTitleBytes = 200;  ///< bytes
 
 }  // namespace
 
@@ -114,7 +114,7 @@ Scene SceneBuilder::build() {
         refuseForeign(root, *foreign);
         return Scene();
     }
-    // The root is a group of its own only if it has what a group has.
+    // The root is a group only if it has the content of a group.
     const bool isGroup = !group.transforms.empty() || !group.models.empty() || group.scatter;
     if (!isGroup || scene_.dialect == Dialect::course) scene_.lights = std::move(group.lights);
     if (isGroup) {
@@ -145,7 +145,7 @@ bool SceneBuilder::rootElement(std::string_view canonical, pugi::xml_node elemen
 
 void SceneBuilder::rootAttributes(pugi::xml_node root) {
     const Values given = values(root, "world");
-    scene_.title = bounded(given.text("title"), kLongestTitle, given.where("title"), "title");
+    scene_.title = bounded(given.text("title"), kMaxTitleBytes, given.where("title"), "title");
     if (given.text("dialect") == "course") scene_.dialect = Dialect::course;
     if (given.text("dialect") == "engine2017") scene_.dialect = Dialect::engine2017;
     if (given.text("dialect") == "engine2020") scene_.dialect = Dialect::engine2020;
@@ -324,7 +324,7 @@ std::string SceneBuilder::bounded(std::string_view text, std::size_t longest, co
 }
 
 void SceneBuilder::title(pugi::xml_node element) {
-    scene_.title = bounded(element.child_value(), kLongestTitle, at(element), "title");
+    scene_.title = bounded(element.child_value(), kMaxTitleBytes, at(element), "title");
 }
 
 void SceneBuilder::description(pugi::xml_node element) {

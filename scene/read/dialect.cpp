@@ -59,7 +59,7 @@ pugi::xml_node nextElement(pugi::xml_node element, pugi::xml_node root) {
 Dialect detectDialect(const Document& document, Findings& findings) {
     const pugi::xml_node root = document.root();
     for (const pugi::xml_attribute attribute : root.attributes())
-        if (sameWord(attribute.name(), "dialect")) return Dialect::course;  // told, not guessed
+        if (sameWord(attribute.name(), "dialect")) return Dialect::course;  // given, not guessed
     if (!sameWord(root.name(), "scene")) return Dialect::course;
     const Sign* first = nullptr;
     pugi::xml_node firstAt, otherAt;

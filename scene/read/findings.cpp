@@ -9,7 +9,7 @@
 namespace farol::scene {
 namespace {
 
-/// What is kept for the choice at the end; a hostile document could make half a million.
+/// Findings kept for the choice at the end; a hostile document could make half a million.
 constexpr std::size_t kMaxKept = 1000;
 /// Repairs of one kind that are shown one by one.
 constexpr int kMaxRepeats = 5;
@@ -26,18 +26,6 @@ void Findings::warn(Message message, Location where) {
 
 void Findings::error(Message message, Location where) {
     keep(diagnosticOf(Severity::error, std::move(message), std::move(where)));
-}
-
-void Findings::info(std::string code, Location where, std::string message) {
-    keep({Severity::info, std::move(code), std::move(where), std::move(message), ""});
-}
-
-void Findings::warn(std::string code, Location where, std::string message) {
-    warn({Severity::warning, std::move(code), std::move(where), std::move(message), ""});
-}
-
-void Findings::error(std::string code, Location where, std::string message) {
-    keep({Severity::error, std::move(code), std::move(where), std::move(message), ""});
 }
 
 void Findings::warn(Diagnostic finding) {

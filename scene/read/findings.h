@@ -8,7 +8,7 @@
 namespace farol::scene {
 
 /// Collects what is found in one document and those it includes: bounded, in document order,
-/// warnings as errors when strict. Repeated repairs of the same kind are told a few times only.
+/// warnings as errors when strict. Repeated repairs of the same kind are reported a few times only.
 class Findings {
   public:
     Findings(bool strict, int limit) : strict_(strict), limit_(limit) {}
@@ -16,14 +16,11 @@ class Findings {
     void info(Message message, Location where);
     void warn(Message message, Location where);
     void error(Message message, Location where);
-    void info(std::string code, Location where, std::string message);
-    void warn(std::string code, Location where, std::string message);
-    void error(std::string code, Location where, std::string message);
     void add(Diagnostics found);
     /// Drops all findings so far and reports one error in their place.
     void replaceBy(Message message, Location where);
 
-    /// Where elements are open too long or closed too often, leaves out what was said of things
+    /// Where elements are open too long or closed too often, drops the findings about things
     /// in the wrong place: they stand where they were meant.
     void dropFollowUps();
 

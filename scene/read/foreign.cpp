@@ -70,7 +70,7 @@ std::optional<Message> foreignRoot(pugi::xml_node root) {
 }
 
 std::optional<Message> foreignContent(pugi::xml_node root, bool isWhole) {
-    constexpr std::size_t kMaxNamed = 3, kLongestName = 64;
+    constexpr std::size_t kMaxNamed = 3, kMaxNameBytes = 64;
     const ElementSpec& spec = elementSpec("world");
     std::vector<std::string> names;
     for (const std::string_view name : split(spec.children)) names.emplace_back(name);
@@ -87,7 +87,7 @@ std::optional<Message> foreignContent(pugi::xml_node root, bool isWhole) {
         for (const Language& one : kLanguages)
             if (language == nullptr && isAmong(one.children, child.name())) language = &one;
         isScene = isScene || known != nullptr || isKnownElement(child.name()) ||
-                  !didYouMean(std::string(child.name()).substr(0, kLongestName), names).empty();
+                  !didYouMean(std::string(child.name()).substr(0, kMaxNameBytes), names).empty();
         if (known == nullptr && unknown.size() <= kMaxNamed)
             unknown.push_back("<" + shown(child.name()) + ">");
     }

@@ -8,6 +8,14 @@ namespace farol::scene {
 inline constexpr MessageRow kReadMessages[] = {
     {"asset.missing/scene", "no scene file \"{file}\"; add it beside the document", {"lamp.xml"}},
     {"limit.includes", "too many included files; at most {max}, nested {depth} deep", {"64", "8"}},
+    {"limit.instances/copies",
+     "the scattered copies make {count} models; expected at most {max}; lower a \"count\", or nest "
+     "fewer scatters",
+     {"2000000", "100000"}},
+    {"limit.instances/places",
+     "the scattered copies make {count} groups and curve points; expected at most {max}; lower a "
+     "\"count\", or nest fewer scatters",
+     {"2000000", "1000000"}},
     {"limit.lights",
      "light number {count}; the 2020 dialect allows at most {max} lights",
      {"9", "8"}},
@@ -109,6 +117,10 @@ inline constexpr MessageRow kReadMessages[] = {
      "<{element}> has no \"{name}\" and is ignored",
      {"texture", "file"}},
     {"scene.missing-attribute/lap", "<translate> along points has no \"time\"; using 1 second"},
+    {"scene.missing-attribute/light-cutoff",
+     "the spot <light> has no \"cutoff\" and shines in all directions; add half the angle of its "
+     "cone "
+     "in degrees, such as cutoff=\"30\""},
     {"scene.missing-attribute/light-direction",
      "directional <light> has a position but no direction; using the position as the vector "
      "towards the light"},
@@ -173,6 +185,14 @@ inline constexpr MessageRow kReadMessages[] = {
     {"scene.unknown-attribute",
      "<{element}> has no attribute \"{name}\"[; did you mean \"{suggestion}\"?][; it has {known}]",
      {"projection", "fvo", "fov", "fov, near and far"}},
+    {"scene.unknown-attribute/color",
+     "<{element}> has no attribute \"{name}\"; write the colour as R=\"{red}\" G=\"{green}\" "
+     "B=\"{blue}\"",
+     {"diffuse", "value", "255", "136", "0"}},
+    {"scene.unknown-attribute/color-child",
+     "<{element}> has no attribute \"{name}\"; write <{name} R=\"{red}\" G=\"{green}\" "
+     "B=\"{blue}\"/> inside it",
+     {"color", "diffuse", "255", "136", "0"}},
     {"scene.unknown-color",
      "unknown colour \"{value}\"; define it in <colors>, or write #rrggbb[ (did you mean "
      "\"{suggestion}\"?)]",

@@ -52,9 +52,9 @@ Scene readDocument(std::string_view xml, const std::string& name, ReadSession& s
 
 ReadResult read(std::string_view xml, const ReadOptions& options, const Assets& assets) {
     // The reader walks groups by recursion: whatever the caller allows, the stack must do.
-    constexpr int kDeepest = 512;
+    constexpr int kMaxDepth = 512;
     ReadOptions bounded = options;
-    bounded.limits.depth = std::min(options.limits.depth, kDeepest);
+    bounded.limits.depth = std::min(options.limits.depth, kMaxDepth);
     Findings findings(bounded.strict, bounded.limits.diagnostics);
     Locator locator(assets, {bounded.name, bounded.path});
     ReadSession session{bounded,  assets,         locator,

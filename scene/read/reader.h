@@ -8,7 +8,7 @@
 
 namespace farol::scene {
 
-/// Bounds on a document, checked before memory is taken for its content.
+/// Bounds on a document, checked before memory is allocated for its content.
 struct ReadLimits {
     std::size_t bytes = 1 << 20;
     int depth = 64;
@@ -34,7 +34,7 @@ struct ReadResult {
 /// Reads a scene of any dialect, repairing what real files get wrong (see docs/scene-language.md).
 /// `assets` serves includes and entities only. Throws Error with all diagnostics found (xml.*
 /// errors first, then in document order) when the document is not readable XML (xml.*), is not a
-/// scene (scene.*) or is over a limit (limit.*), or an included file cannot be had (asset.*).
+/// scene (scene.*) or is over a limit (limit.*), or an included file is missing (asset.*).
 ReadResult read(std::string_view xml, const ReadOptions& options, const Assets& assets);
 
 }  // namespace farol::scene

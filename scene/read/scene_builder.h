@@ -14,7 +14,7 @@
 
 namespace farol::scene {
 
-/// What a document shares with those that it includes.
+/// State that a document shares with those that it includes.
 struct ReadSession {
     const ReadOptions& options;
     const Assets& assets;
@@ -36,7 +36,7 @@ class SceneBuilder {
     Scene build();
 
   private:
-    /// What a group has had so far: the order matters to the older dialects.
+    /// The content of a group so far: the order matters to the older dialects.
     struct GroupState {
         std::set<std::string_view> transforms;
         bool transform = false, models = false, lights = false, content = false, isRoot = false;

@@ -79,6 +79,7 @@ class AttributeReader {
         Message text = message<"scene.unknown-attribute">(
             "name"_arg = attribute.name(), "element"_arg = element_, "suggestion"_arg = hint,
             "known"_arg = hint.empty() ? fewNames() : "");
+        if (auto advice = colorAdvice(attribute); advice && hint.empty()) text = *advice;
         if (unknown == Unknown::error) {
             values.damaged = true;
             findings_.error(std::move(text), document_.at(attribute));
@@ -87,10 +88,33 @@ class AttributeReader {
         }
     }
 
+    /// How to write an unknown attribute that is a colour, #rrggbb or rrggbb, where the element or
+    /// its child of that name has R, G and B.
+    std::optional<Message> colorAdvice(pugi::xml_attribute attribute) const {
+        std::string_view digits = attribute.value();
+        if (digits.starts_with('#')) digits.remove_prefix(1);
+        const bool isHex =
+            digits.size() == 6 && digits.find_first_not_of("0123456789abcdefABCDEF") == digits.npos;
+        const auto isRed = [](const AttributeSpec& row) { return row.name == "R"; };
+        if (!isHex || std::none_of(spec_.attributes.begin(), spec_.attributes.end(), isRed))
+            return std::nullopt;
+        const auto channel = [&](std::size_t at) {
+            return std::stoi(std::string(digits.substr(at, 2)), nullptr, 16);
+        };
+        const auto name = "name"_arg = attribute.name();
+        const auto element = "element"_arg = element_;
+        const auto red = "red"_arg = channel(0);
+        const auto green = "green"_arg = channel(2);
+        const auto blue = "blue"_arg = channel(4);
+        if (isAmong(spec_.children, attribute.name()))
+            return message<"scene.unknown-attribute/color-child">(name, element, red, green, blue);
+        return message<"scene.unknown-attribute/color">(name, element, red, green, blue);
+    }
+
     /// The names of the element's attributes, where they are few.
     std::string fewNames() const {
-        constexpr std::size_t kFew = 6;
-        if (spec_.attributes.size() > kFew) return "";
+        constexpr std::size_t kMaxNames = 6;
+        if (spec_.attributes.size() > kMaxNames) return "";
         return joined(spec_.attributes, ", ", [](const AttributeSpec& row) { return row.name; });
     }
 
@@ -124,10 +148,10 @@ class AttributeReader {
     }
 
     bool textual(const Values::Entry& entry, std::string_view name) {
-        constexpr std::size_t kLongest = 1024;
-        if (entry.text.size() <= kLongest) return true;
+        constexpr std::size_t kMaxBytes = 1024;
+        if (entry.text.size() <= kMaxBytes) return true;
         findings_.error(message<"limit.text/attribute">("name"_arg = name, "element"_arg = element_,
-                                                        "max"_arg = kLongest),
+                                                        "max"_arg = kMaxBytes),
                         entry.where);
         return false;
     }

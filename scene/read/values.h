@@ -39,8 +39,8 @@ class Values {
     std::vector<Entry> entries;
 };
 
-/// What an attribute without a row is: a warning, or an error where the element has no attribute
-/// that is understood.
+/// The severity of an attribute without a row: a warning, or an error where the element has no
+/// attribute that is understood.
 enum class Unknown { warning, error };
 
 /// Reads all attributes of `element` by its table; faults are added to `findings`

@@ -11,6 +11,7 @@ inline constexpr MessageRow kRepairMessages[] = {
      {"2000000", "1048576"}},
     {"limit.depth", "elements are nested more than {max} deep", {"64"}},
     {"limit.elements", "the document has more than {max} elements", {"50000"}},
+    {"part.close-either", "end its tag with \"/>\", or write </{element}>", {"translate"}},
     {"part.close-element", "write </{element}>", {"group"}},
     {"part.close-tag", "end its tag with \"/>\""},
     {"scene.generator-conflict", "conflicting generator comments for one file; using the first"},

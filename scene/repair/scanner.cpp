@@ -34,6 +34,8 @@ Message closing(std::string_view name) {
         if (one.children.empty() && (sameWord(one.name, name) || isAmong(one.aliases, name)) &&
             !sameWord(name, "title") && !sameWord(name, "description"))
             return message<"part.close-tag">();
+        else if (one.children == "point" && sameWord(one.name, name))
+            return message<"part.close-either">("element"_arg = name);
     return message<"part.close-element">("element"_arg = name);
 }
 

@@ -4,7 +4,7 @@
 
 namespace farol::scene {
 
-/// One pass over a document that copies it, mended, into Repaired::text.
+/// One pass over a document that copies it, repaired, into Repaired::text.
 class RepairScanner {
   public:
     RepairScanner(std::string_view source, const LineIndex& lines, const ReadLimits& limits,

@@ -174,8 +174,8 @@ void RepairScanner::copy(std::size_t begin, std::size_t end) {
 
 /// Copies the entity or character reference at an "&"; returns the offset after it.
 std::size_t RepairScanner::reference(std::size_t at, std::size_t end) {
-    constexpr std::size_t kLongest = 32;
-    const std::string_view near = source_.substr(at, std::min(end - at, kLongest));
+    constexpr std::size_t kMaxShown = 32;
+    const std::string_view near = source_.substr(at, std::min(end - at, kMaxShown));
     const std::size_t semicolon = at + std::min(near.find(';'), near.size());
     const std::string_view word = semicolon < at + near.size()
                                       ? source_.substr(at + 1, semicolon - at - 1)

@@ -113,6 +113,8 @@ TABLES = {
         ("the type of a light is misspelt", 10, 1, '<light type="pointlight" posX="0" posY="10" posZ="4"/>'),
         ("a directional light without a direction", 10, 1, '<light type="directional"/>'),
         ("a spot light without a direction", 10, 1, '<light type="spot" posX="0" posY="10" posZ="0" cutoff="45"/>'),
+        ("a spot light without a cutoff", 10, 1,
+         '<light type="spot" posX="0" posY="10" posZ="0" dirX="0" dirY="-1" dirZ="0"/>'),
         ("a cutoff out of range", 10, 1,
          '<light type="spot" posX="0" posY="10" posZ="0" dirX="0" dirY="-1" dirZ="0" cutoff="270"/>'),
         ("the sun shines from below", 10, 1, '<light type="directional" dirX="0" dirY="-1" dirZ="0"/>'),

@@ -361,7 +361,7 @@ scene.unknown-element 16:1 unknown element <p> in <translate> is ignored
          R"(                    <diffuse value="#ff0000" />
 )",
          false,
-         R"(scene.unknown-attribute 20:30 <diffuse> has no attribute "value"; it has R, G, B, max, cycles
+         R"(scene.unknown-attribute 20:30 <diffuse> has no attribute "value"; write the colour as R="255" G="0" B="0"
 )"},
         {"capital close", 25, 1,
          R"(        </Models>

@@ -37,7 +37,7 @@ std::size_t Repaired::origin(std::size_t offset) const {
 
 namespace {
 
-/// What a person puts round a file's name or a whole command.
+/// Removes the quotes round a file name or a whole command.
 std::string_view unquoted(std::string_view word) {
     constexpr std::string_view kQuotes = "\"'`";
     while (!word.empty() && kQuotes.find(word.front()) != std::string_view::npos)
@@ -63,8 +63,8 @@ bool isNumber(std::string_view word) { return parseNumber(word).problem.empty();
 /// Where the command begins: at the first word, or after a prompt or a label ("$", "run:"); prose
 /// that speaks of a generator names no numbers and no file.
 std::size_t commandAt(const std::vector<std::string_view>& words) {
-    constexpr std::size_t kLongestLabel = 3;  ///< words
-    for (std::size_t i = 0; i < words.size() && i <= kLongestLabel; ++i) {
+    constexpr std::size_t kMaxLabelWords = 3;  ///< words
+    for (std::size_t i = 0; i < words.size() && i <= kMaxLabelWords; ++i) {
         if (!isGenerator(words[i])) continue;
         const bool numbers =
             std::any_of(words.begin() + static_cast<std::ptrdiff_t>(i), words.end(), isNumber);
@@ -84,8 +84,8 @@ bool endsCommand(std::string_view word) {
 /// One command of a comment; see takeGeneratorWords.
 bool takeCommand(std::string_view line, std::map<std::string, std::vector<std::string>>& comments,
                  bool& conflict) {
-    constexpr std::size_t kMaxWords = 32, kLongest = 1024;
-    if (line.size() > kLongest) return false;
+    constexpr std::size_t kMaxWords = 32, kMaxLineBytes = 1024;
+    if (line.size() > kMaxLineBytes) return false;
     std::vector<std::string_view> words = split(line);
     // Before the file: "generator sphere 1 8 8 > ball.3d", "-o ball.3d".
     if (words.size() > 1 && (words.end()[-2] == ">" || words.end()[-2] == "-o"))

@@ -85,6 +85,7 @@ Mesh::Mesh(MeshArrays arrays, const std::string& fileName) {
     checkNumbers<3>(std::vector<glm::dvec3>{arrays.origin}, message<"part.one-origin">(), fileName);
     checkNumbers<3>(arrays.normals, message<"part.one-normal">(), fileName);
     checkNumbers<2>(arrays.uvs, message<"part.one-uv">(), fileName);
+    checkNumbers<2>(std::vector<glm::dvec2>{arrays.uvOrigin}, message<"part.one-uv">(), fileName);
     arrays_ = std::move(arrays);
 }
 

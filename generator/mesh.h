@@ -37,7 +37,8 @@ struct MeshArrays {
     std::vector<glm::u8vec4> colors;  ///< display values 0..255 of the file's own; alpha 255
     std::vector<std::uint32_t> indices;
     std::vector<MeshPart> parts;
-    glm::dvec3 origin{0.0};  ///< object space
+    glm::dvec3 origin{0.0};    ///< object space
+    glm::dvec2 uvOrigin{0.0};  ///< was subtracted from all uvs
 
     std::size_t triangles() const { return indices.size() / 3; }
     bool operator==(const MeshArrays&) const = default;
@@ -52,7 +53,9 @@ void checkStructure(const MeshArrays& arrays, const std::string& fileName = {});
 /// Indexed triangles, checked. Object space, right-handed, +Y up, counter-clockwise seen from
 /// outside. A vertex is at origin() + positions()[i]: origin() is 0 but for meshes that are far
 /// from the origin for their size, whose places a float could not tell apart. normals() is empty or
-/// as long as positions() (unit length); uvs() (origin bottom left) and colors() are, too.
+/// as long as positions() (unit length); uvs() (origin bottom left) and colors() are, too. A
+/// vertex's texture coordinates are uvOrigin() + uvs()[i]: uvOrigin() is 0 but where they are far
+/// from 0, and then whole.
 /// indices() holds three entries a triangle, each < positions().size(). parts() is empty, or the
 /// materials of all triangles, in their order. All numbers are finite, coordinates within
 /// kMaxCoordinate.
@@ -71,6 +74,7 @@ class Mesh {
     const std::vector<std::uint32_t>& indices() const { return arrays_.indices; }
     const std::vector<MeshPart>& parts() const { return arrays_.parts; }
     const glm::dvec3& origin() const { return arrays_.origin; }
+    const glm::dvec2& uvOrigin() const { return arrays_.uvOrigin; }
     /// Where a vertex is, object space.
     glm::dvec3 place(std::size_t vertex) const {
         return arrays_.origin + glm::dvec3(arrays_.positions[vertex]);

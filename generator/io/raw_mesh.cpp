@@ -28,7 +28,7 @@ double turnsOf(const Range& range) {
     return far && std::isfinite(middle) ? std::floor(middle) : 0.0;
 }
 
-std::vector<glm::vec2> settleUvs(RawMesh& raw) {
+std::vector<glm::vec2> settleUvs(RawMesh& raw, glm::dvec2& turns) {
     Range u, v;
     std::size_t lost = 0;
     for (glm::dvec2& uv : raw.uvs) {
@@ -41,7 +41,7 @@ std::vector<glm::vec2> settleUvs(RawMesh& raw) {
         v.add(uv.y);
     }
     if (lost > 0) raw.leftOut["texture coordinates that are no numbers"] += lost;
-    const glm::dvec2 turns = u.low <= u.high ? glm::dvec2(turnsOf(u), turnsOf(v)) : glm::dvec2(0.0);
+    if (u.low <= u.high) turns = {turnsOf(u), turnsOf(v)};
     std::vector<glm::vec2> out;
     out.reserve(raw.uvs.size());
     for (const glm::dvec2& uv : raw.uvs) out.emplace_back(uv - turns);
@@ -82,7 +82,7 @@ MeshArrays settle(RawMesh& raw) {
     else
         for (const glm::dvec3& p : raw.positions) mesh.positions.emplace_back(p - mesh.origin);
     raw.positions = {};
-    mesh.uvs = settleUvs(raw);
+    mesh.uvs = settleUvs(raw, mesh.uvOrigin);
     raw.uvs = {};
     mesh.normals = std::move(raw.normals);
     mesh.colors = std::move(raw.colors);

@@ -52,6 +52,45 @@ std::size_t addColors(const Api& api, GpuMesh& gpu, const generator::Mesh& mesh,
     return all.size() * sizeof(glm::u8vec4);
 }
 
+/// Where vertices are for the viewer, attribute 13, where that was computed. Returns their bytes.
+std::size_t addEyePositions(const Api& api, GpuMesh& gpu, const MeshData& data, bool flat) {
+    if (data.eyePositions.empty()) return 0;
+    std::vector<glm::vec3> corners;
+    if (flat)
+        for (const std::uint32_t index : data.mesh.indices())
+            corners.push_back(data.eyePositions[index]);
+    const std::vector<glm::vec3>& all = flat ? corners : data.eyePositions;
+    gpu.eyePositions = Buffer(api);
+    fill(api, gpu.eyePositions, GL_ARRAY_BUFFER, all);
+    attribute(api, 13, 3, sizeof(glm::vec3), 0);
+    return all.size() * sizeof(glm::vec3);
+}
+
+/// Three vertices of its own a triangle, with its normal and middle.
+std::vector<FlatVertex> facesOf(const MeshData& data) {
+    const generator::Mesh& mesh = data.mesh;
+    const std::vector<std::uint32_t>& indices = mesh.indices();
+    std::vector<FlatVertex> vertices;
+    vertices.reserve(indices.size());
+    for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
+        Vertex corners[3];
+        for (std::size_t c = 0; c < 3; ++c) corners[c] = vertexOf(mesh, indices[i + c]);
+        if (!data.faceCenters.empty()) {  // pieces of faces know theirs
+            for (const Vertex& corner : corners)
+                vertices.push_back({corner, data.faceCenters[indices[i]]});
+            continue;
+        }
+        const glm::dvec3 a(corners[0].position), b(corners[1].position), c(corners[2].position);
+        const glm::dvec3 cross = glm::cross(b - a, c - a);
+        const double size = glm::length(cross);
+        for (Vertex& corner : corners) {
+            if (size > 0.0) corner.normal = glm::vec3(cross / size);
+            vertices.push_back({corner, glm::vec3((a + b + c) / 3.0)});
+        }
+    }
+    return vertices;
+}
+
 /// Read by the shader of instances alone.
 void addPlaces(const Api& api, const Buffer& places) {
     api.BindBuffer(GL_ARRAY_BUFFER, places.name());
@@ -66,7 +105,8 @@ void addPlaces(const Api& api, const Buffer& places) {
     }
 }
 
-GpuMesh upload(const Api& api, const generator::Mesh& mesh, bool flat, const Buffer& places) {
+GpuMesh upload(const Api& api, const MeshData& data, bool flat, const Buffer& places) {
+    const generator::Mesh& mesh = data.mesh;
     GpuMesh gpu;
     gpu.array = VertexArray(api);
     gpu.vertices = Buffer(api);
@@ -75,19 +115,7 @@ GpuMesh upload(const Api& api, const generator::Mesh& mesh, bool flat, const Buf
     api.BindVertexArray(gpu.array.name());
     const std::size_t stride = flat ? sizeof(FlatVertex) : sizeof(Vertex);
     if (flat) {
-        std::vector<FlatVertex> vertices;
-        vertices.reserve(mesh.indices().size());
-        for (std::size_t i = 0; i + 2 < mesh.indices().size(); i += 3) {
-            Vertex corners[3];
-            for (std::size_t c = 0; c < 3; ++c) corners[c] = vertexOf(mesh, mesh.indices()[i + c]);
-            const glm::dvec3 a(corners[0].position), b(corners[1].position), c(corners[2].position);
-            const glm::dvec3 cross = glm::cross(b - a, c - a);
-            const double size = glm::length(cross);
-            for (Vertex& corner : corners) {
-                if (size > 0.0) corner.normal = glm::vec3(cross / size);
-                vertices.push_back({corner, glm::vec3((a + b + c) / 3.0)});
-            }
-        }
+        const std::vector<FlatVertex> vertices = facesOf(data);
         fill(api, gpu.vertices, GL_ARRAY_BUFFER, vertices);
         gpu.bytes = vertices.size() * stride;
         attribute(api, 3, 3, stride, offsetof(FlatVertex, center));
@@ -105,6 +133,7 @@ GpuMesh upload(const Api& api, const generator::Mesh& mesh, bool flat, const Buf
     attribute(api, 1, 3, stride, offsetof(Vertex, normal));
     attribute(api, 2, 2, stride, offsetof(Vertex, uv));
     gpu.bytes += addColors(api, gpu, mesh, flat);
+    gpu.bytes += addEyePositions(api, gpu, data, flat);
     addPlaces(api, places);
     return gpu;
 }
@@ -114,7 +143,7 @@ GpuMesh upload(const Api& api, const generator::Mesh& mesh, bool flat, const Buf
 const GpuMesh& MeshStore::get(const MeshData& data, bool flat) {
     const Key key{data.id, flat};
     if (const GpuMesh* known = meshes_.find(key)) return *known;
-    GpuMesh mesh = upload(api_, data.mesh, flat, places_);
+    GpuMesh mesh = upload(api_, data, flat, places_);
     throwOnError(api_, "uploading a mesh");  // before it is kept for other jobs
     const std::size_t bytes = mesh.bytes;
     return meshes_.put(key, std::move(mesh), bytes);

@@ -52,6 +52,7 @@ constexpr std::array<FeatureName, kFeatures> kNames{{
     {Feature::surfaceTwoSteps, "SURFACE_TWO_STEPS"},
     {Feature::surfaceTurnFromX, "SURFACE_TURN_FROM_X"},
     {Feature::surfaceDiscUv, "SURFACE_DISC_UV"},
+    {Feature::eyePositions, "EYE_POSITIONS"},
     {Feature::instanced, "INSTANCED"},
     {Feature::skybox, "SKYBOX"},
     {Feature::resolve, "RESOLVE", true},

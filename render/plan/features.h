@@ -41,6 +41,7 @@ enum class Feature : std::uint8_t {
     surfaceTurnFromX,
     surfaceDiscUv,
     // Geometry.
+    eyePositions,  ///< vertices were placed in double (MeshData::eyePositions)
     instanced,
     // Whole windows.
     skybox,

@@ -6,11 +6,6 @@
 namespace farol::render {
 namespace {
 
-std::uint64_t nextId() {
-    static std::atomic<std::uint64_t> last{0};
-    return ++last;
-}
-
 std::string keyOf(const scene::Model& model, const scene::Assets& assets) {
     std::string key = std::to_string(static_cast<int>(model.source.kind)) + '\n' +
                       std::to_string(static_cast<int>(model.uv)) + (model.autoLod ? "a\n" : "\n");
@@ -22,6 +17,11 @@ std::string keyOf(const scene::Model& model, const scene::Assets& assets) {
 }
 
 }  // namespace
+
+std::uint64_t nextMeshId() {
+    static std::atomic<std::uint64_t> last{0};
+    return ++last;
+}
 
 std::size_t bytesOf(const MeshData& data) {
     return data.mesh.positions().size() * sizeof(glm::vec3) +
@@ -35,7 +35,7 @@ std::shared_ptr<const MeshData> MeshLibrary::keep(const Key& key, generator::Mes
                                                   Diagnostics findings,
                                                   const generator::ShapeCall* balanced) {
     auto data = std::make_shared<MeshData>();
-    data->id = nextId();
+    data->id = nextMeshId();
     data->mesh = std::move(mesh);
     if (balanced != nullptr) {
         data->balance = generator::balancedScale(*balanced);

@@ -31,7 +31,14 @@ struct MeshData {
     glm::dvec3 balance{1.0};  ///< generator::balancedScale, where the mesh was asked to be balanced
     double fullTurn = 0.0;    ///< generator::fullTurnOf, likewise
     Diagnostics findings;     ///< repairs of its file
+    /// Where the vertices are for one viewer, eye space; empty: where their matrix puts them
+    /// (near_mesh.h).
+    std::vector<glm::vec3> eyePositions;
+    std::vector<glm::vec3> faceCenters;  ///< likewise the middle of each vertex's face, for flat
 };
+
+/// A number for MeshData::id.
+std::uint64_t nextMeshId();
 
 /// Bytes that a mesh takes.
 std::size_t bytesOf(const MeshData& data);

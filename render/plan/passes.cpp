@@ -8,10 +8,10 @@
 namespace farol::render {
 namespace {
 
-constexpr FeatureSet kSurfaceFeatures{Feature::surface,          Feature::surfaceCaps,
-                                      Feature::surfaceProfile,   Feature::surfaceRay,
-                                      Feature::surfaceTwoSteps,  Feature::surfaceWrapsV,
-                                      Feature::surfaceTurnFromX, Feature::surfaceDiscUv};
+constexpr FeatureSet kShapeFeatures{
+    Feature::eyePositions,   Feature::surface,          Feature::surfaceCaps,
+    Feature::surfaceProfile, Feature::surfaceRay,       Feature::surfaceTwoSteps,
+    Feature::surfaceWrapsV,  Feature::surfaceTurnFromX, Feature::surfaceDiscUv};
 
 FeatureSet surfaceFeatures(const generator::Surface& surface) {
     const generator::SurfaceKind& kind = *surface.kind;
@@ -63,6 +63,7 @@ FeatureSet itemFeatures(const FramePlan& plan, const DrawItem& item) {
             features | textureFeatures(plan.textures[static_cast<std::size_t>(item.texture)].filter,
                                        item.mapping);
     if (item.colored) features.add(Feature::vertexColor);
+    if (!item.mesh->eyePositions.empty()) features.add(Feature::eyePositions);
     if (plan.style.lit)
         features =
             features | lightFeatures(item, plan.lightSets[static_cast<std::size_t>(item.lightSet)],
@@ -94,15 +95,15 @@ void chooseFeatures(const FrameStyle& style, Pass& pass) {
             break;
         case Layer::id:
             pass.features = {Feature::lightCount, Feature::layerId};
-            pass.itemFeatures = {};
+            pass.itemFeatures = {Feature::eyePositions};
             break;
         case Layer::normal:
             pass.features = {Feature::lightCount, Feature::layerNormal};
-            pass.itemFeatures = kSurfaceFeatures;
+            pass.itemFeatures = kShapeFeatures;
             break;
         case Layer::depth:
             pass.features = {Feature::lightCount, Feature::layerDepth};
-            pass.itemFeatures = kSurfaceFeatures;
+            pass.itemFeatures = kShapeFeatures;
             break;
     }
 }

@@ -7,7 +7,9 @@
 #include "render/plan/camera.h"
 #include "render/plan/frustum.h"
 #include "render/plan/light_reach.h"
+#include "render/plan/lines.h"
 #include "render/plan/messages.h"
+#include "render/plan/near_mesh.h"
 #include "render/plan/passes.h"
 #include "render/plan/sampling.h"
 #include "render/plan/tessellate.h"
@@ -26,7 +28,8 @@ int defaultSamples(double errorPx) {
 /// Triangles of a frame from which on meshes are drawn as coarse as they come: copies that all fill
 /// the view would each be fine enough for it, and a frame take minutes. Some seconds' worth.
 constexpr std::int64_t kMaxRefinedTriangles = 16'000'000;
-constexpr double kAxisLength = 100.0;  // as the course draws them
+/// Vertices of a frame that are placed in double; what is over is drawn as it is.
+constexpr std::size_t kMaxNearVertices = 4'000'000;
 // Where the third-person camera holds its entity: in front of the eye, in eye space.
 constexpr glm::dvec3 kEntityPlace{0.0, 0.0, -3.0};
 // Half the diagonal of a sheared box is at most sqrt(3) times the root of its squared edges.
@@ -80,7 +83,7 @@ class Planner {
         addInstances(scene_, list, plan_.view, {});
         plan_.findings = list.findings;
         if (placed_.entity) addEntity();
-        addLines(list);
+        if (style_.layer == Layer::color) addLines(plan_, scene_, list, options_);
         addBackground();
         plan_.stats.textures = static_cast<int>(plan_.textures.size());
         composePasses(plan_, gl_);
@@ -244,6 +247,10 @@ class Planner {
             ++plan_.stats.betweenSamples;
             return;
         }
+        if (!placeNear(item, instance, view, viewFromObject)) {
+            ++plan_.stats.culled;
+            return;
+        }
         item.viewFromObject = glm::mat4(viewFromObject);
         // Cofactors: the inverse transpose without its division, so flattened objects work too.
         glm::dmat3 cofactor(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
@@ -283,6 +290,27 @@ class Planner {
             return;
         }
         push(std::move(item), model.twoSided);
+    }
+
+    /// Places the mesh in double where floats would move it on the screen. Returns false where
+    /// nothing of it is in view.
+    bool placeNear(DrawItem& item, const Instance& instance, const ViewTransform& view,
+                   glm::dmat4& viewFromObject) {
+        const bool isLit = style_.lit && style_.layer == Layer::color;
+        // Lines would show the cuts, and light at corners would move with them.
+        if (drawsLines() || (isLit && style_.shading == scene::Shading::gouraud)) return true;
+        MeshPlace place{instance.worldFromObject};
+        for (int i = 0; i < 3; ++i) place.worldFromObject[i] *= item.mesh->balance[i];
+        place.isFlat = isLit && style_.shading == scene::Shading::flat;
+        place.keepsParity = style_.shading == scene::Shading::chess;
+        place.hasSurface = item.surface.has_value();
+        const std::optional<NearMesh> near =
+            placeInDouble(*item.mesh, place, view, kMaxNearVertices - nearVertices_);
+        if (!near) return true;
+        item.mesh = near->mesh;
+        viewFromObject[3] += glm::dvec4(glm::dmat3(viewFromObject) * near->eye, 0.0);
+        nearVertices_ += near->mesh->mesh.positions().size();
+        return !near->mesh->mesh.indices().empty();
     }
 
     void push(DrawItem item, bool twoSided) {
@@ -362,20 +390,12 @@ class Planner {
         const generator::Mesh& mesh = item.mesh->mesh;
         item.mapping = from.mapping;
         const bool object = item.mapping == scene::Mapping::texgenObject;
-        item.planeS = planeOf(from.planeS, object ? mesh.origin() : glm::dvec3(0.0));
-        item.planeT = planeOf(from.planeT, object ? mesh.origin() : glm::dvec3(0.0));
-        item.uvFrom = glm::vec4(from.scale, from.offset);
+        const glm::dvec3 origin = object ? mesh.origin() : glm::dvec3(0.0);
+        item.planeS = texgenPlane(from.planeS, origin, from.clamp);
+        item.planeT = texgenPlane(from.planeT, origin, from.clamp);
+        item.uvFrom = uvPlacement(from, mesh.uvOrigin());
         if (item.mapping == scene::Mapping::mesh && mesh.uvs().empty()) return;
         item.texture = textureIndex(list, static_cast<std::size_t>(texture));
-    }
-
-    /// A texgen plane for places relative to `origin`. Subtracts the whole periods of a large
-    /// offset: a float would round off the rest.
-    static glm::vec4 planeOf(glm::dvec4 plane, const glm::dvec3& origin) {
-        constexpr double kFar = 32.0;
-        plane.w += glm::dot(glm::dvec3(plane), origin);
-        if (std::abs(plane.w) > kFar) plane.w -= std::floor(plane.w);
-        return glm::vec4(plane);
     }
 
     int textureIndex(const InstanceList& list, std::size_t texture) {
@@ -397,40 +417,6 @@ class Planner {
         if (found != plan_.textures.end()) return static_cast<int>(found - plan_.textures.begin());
         plan_.textures.push_back(std::move(ref));
         return static_cast<int>(plan_.textures.size()) - 1;
-    }
-
-    void addLines(const InstanceList& list) {
-        if (style_.layer != Layer::color) return;
-        const auto segment = [&](const glm::dvec3& a, const glm::dvec3& b, const glm::vec3& color) {
-            plan_.lines.push_back({glm::vec3(plan_.view.eyeFromWorld(a)), color});
-            plan_.lines.push_back({glm::vec3(plan_.view.eyeFromWorld(b)), color});
-        };
-        if (options_.axes.value_or(scene_.settings.axes.value_or(false)))
-            for (int i = 0; i < 3; ++i) {
-                glm::dvec3 end(0.0);
-                end[i] = kAxisLength;
-                glm::vec3 color(0.0F);
-                color[i] = 1.0F;
-                segment(-end, end, color);
-            }
-        for (const PlacedCurve& curve : list.curves)
-            for (std::size_t i = 0; i < curve.points.size(); ++i)
-                segment(curve.points[i], curve.points[(i + 1) % curve.points.size()],
-                        glm::vec3(1.0F));
-        if (options_.focus) {
-            // One fiftieth of the distance: as large at any zoom.
-            const double half = glm::length(plan_.camera.eye - plan_.camera.target) / 100.0;
-            for (int i = 0; i < 8; ++i)
-                for (int axis = 0; axis < 3; ++axis) {
-                    if (i & (1 << axis)) continue;
-                    const auto corner = [&](int bits) {
-                        return plan_.camera.target + half * glm::dvec3(bits & 1 ? 1 : -1,
-                                                                       bits & 2 ? 1 : -1,
-                                                                       bits & 4 ? 1 : -1);
-                    };
-                    segment(corner(i), corner(i | (1 << axis)), glm::vec3(1.0F));
-                }
-        }
     }
 
     void addBackground() {
@@ -466,7 +452,8 @@ class Planner {
     double errorPx_ = options_.errorPx.value_or(kDefaultErrorPx);
     SamplePattern samples_;
     ReachedLights reached_{plan_.lightSets};
-    std::vector<int> textureOf_;  ///< of an InstanceList, in plan_.textures
+    std::size_t nearVertices_ = 0;  ///< placed in double
+    std::vector<int> textureOf_;    ///< of an InstanceList, in plan_.textures
 };
 
 }  // namespace

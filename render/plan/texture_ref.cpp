@@ -1,6 +1,16 @@
 #include "render/plan/texture_ref.h"
 
+#include <cmath>
+
 namespace farol::render {
+namespace {
+
+double lessTurns(double offset, bool clamp) {
+    constexpr double kFar = 32.0;
+    return clamp || !(std::abs(offset) > kFar) ? offset : offset - std::floor(offset);
+}
+
+}  // namespace
 
 TextureRef refOf(const std::string& path, const scene::Assets& assets) {
     TextureRef ref;
@@ -24,6 +34,17 @@ TextureRef refOf(const scene::Texture& texture, const scene::Assets& assets) {
     ref.clamp = texture.clamp;
     ref.where = texture.where;
     return ref;
+}
+
+glm::vec4 texgenPlane(glm::dvec4 plane, const glm::dvec3& origin, bool clamp) {
+    plane.w = lessTurns(plane.w + glm::dot(glm::dvec3(plane), origin), clamp);
+    return glm::vec4(plane);
+}
+
+glm::vec4 uvPlacement(const scene::Texture& texture, const glm::dvec2& uvOrigin) {
+    const glm::dvec2 offset = texture.offset + texture.scale * uvOrigin;
+    return glm::vec4(texture.scale, lessTurns(offset.x, texture.clamp),
+                     lessTurns(offset.y, texture.clamp));
 }
 
 }  // namespace farol::render

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <glm/glm.hpp>
 #include <optional>
 #include <string>
 
@@ -22,5 +23,11 @@ struct TextureRef {
 TextureRef refOf(const scene::Texture& texture, const scene::Assets& assets);
 /// The picture in a file of the assets.
 TextureRef refOf(const std::string& path, const scene::Assets& assets);
+
+/// A texgen plane for places relative to `origin` (the space of the plane), for GL. Where the
+/// texture repeats, whole turns of a far offset are left out: a float would lose the rest.
+glm::vec4 texgenPlane(glm::dvec4 plane, const glm::dvec3& origin, bool clamp);
+/// Scale and offset of mesh coordinates that `uvOrigin` was subtracted from; turns likewise.
+glm::vec4 uvPlacement(const scene::Texture& texture, const glm::dvec2& uvOrigin);
 
 }  // namespace farol::render

@@ -2,6 +2,9 @@ layout(location = 0) in vec3 positionObject;
 layout(location = 1) in vec3 normalObject;
 layout(location = 2) in vec2 uvIn;
 layout(location = 3) in vec3 centerObject;  // FLAT: the middle of the face
+#ifdef EYE_POSITIONS
+layout(location = 13) in vec3 positionEye;  // placed in double; positionObject: from the viewer
+#endif
 #ifdef VERTEX_COLOR
 layout(location = 12) in vec4 colorIn;
 COVERED out vec3 vertexColor;
@@ -72,7 +75,11 @@ COVERED out vec3 positionView;
 #endif
 
 void main() {
+#ifdef EYE_POSITIONS
+    vec4 position = vec4(positionEye, 1.0);
+#else
     vec4 position = viewFromObject * vec4(positionObject, 1.0);
+#endif
     gl_Position = clipFromView * position;
 #ifdef TEXTURED
     uv = uvIn;
@@ -108,8 +115,13 @@ void main() {
 #endif
 #endif
 #ifdef SURFACE
+#ifdef EYE_POSITIONS
+    unitRay = positionObject * unitFromObject;
+    unitPosition = unitEye + unitRay;
+#else
     unitPosition = positionObject * unitFromObject;
     unitRay = unitPosition - unitEye;
+#endif
 #ifdef INSTANCED
     normalFromObject = normalIn;
 #endif

@@ -243,4 +243,6 @@ TEST_CASE("texture coordinates far from 0 lose whole turns") {
         CHECK(turns == glm::round(turns));
     }
     CHECK(std::abs(far.uvs()[0].x) < 1.0F);
+    CHECK(near.uvOrigin() == glm::dvec2(0));
+    CHECK(far.uvOrigin() + glm::dvec2(far.uvs()[0]) == glm::dvec2(1000000.25, -70000));
 }

@@ -146,6 +146,36 @@ bool takeGeneratorWords(std::string_view comment,
     return any;
 }
 
+namespace {
+
+/// What a file that is no text is, by its first bytes; empty for any other.
+std::string_view kindOfBinary(std::string_view bytes) {
+    struct Kind {
+        std::string_view start, name;
+    };
+    static constexpr Kind kKinds[] = {{"\xFD"
+                                       "7zXZ",
+                                       "a .tar.xz archive"},
+                                      {"BZh", "a .tar.bz2 archive"},
+                                      {"\x28\xB5\x2F\xFD", "a .tar.zst archive"},
+                                      {"\x89PNG", "an image"},
+                                      {"\xFF\xD8\xFF", "an image"},
+                                      {"GIF8", "an image"},
+                                      {"BM", "an image"},
+                                      {"%PDF-", "a PDF document"},
+                                      {"MZ", "a program"},
+                                      {"\x7F"
+                                       "ELF",
+                                       "a program"},
+                                      {"BLENDER", "a Blender file"},
+                                      {"Kaydara FBX", "an FBX file"}};
+    for (const Kind& kind : kKinds)
+        if (bytes.starts_with(kind.start)) return kind.name;
+    return "";
+}
+
+}  // namespace
+
 Repaired repair(std::string_view source, const LineIndex& lines, const ReadLimits& limits,
                 Findings& findings) {
     if (source.size() > limits.bytes)
@@ -155,8 +185,11 @@ Repaired repair(std::string_view source, const LineIndex& lines, const ReadLimit
         throw Error(message<"xml.empty">(), lines.at(0));
     // Some programs write the rest of a buffer, too.
     while (source.ends_with('\0')) source.remove_suffix(1);
-    if (const std::size_t nul = source.find('\0'); nul != std::string_view::npos)
-        throw Error(message<"xml.character/nul">(), lines.at(nul));
+    const std::size_t nul = source.find('\0');
+    if (const std::string_view kind = kindOfBinary(source);
+        nul != std::string_view::npos && !kind.empty())
+        throw Error(message<"xml.character/kind">("kind"_arg = kind), lines.at(0));
+    if (nul != std::string_view::npos) throw Error(message<"xml.character/nul">(), lines.at(nul));
     return RepairScanner(source, lines, limits, findings).run();
 }
 

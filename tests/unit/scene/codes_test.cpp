@@ -111,6 +111,10 @@ TEST_CASE("texts that cannot be repaired are refused with line and column") {
         {"^hello", true, "xml.no-root"},
         {"^{\"a\": 1}", true, "xml.no-root"},
         {std::string("<world>\n a^\0b</world>", 21), true, "xml.character"},
+        {std::string("^\xFD"
+                     "7zXZ\0\0\4",
+                     9),
+         true, "xml.character"},
         {"<world>\n ^<group>\n</world>", true, "xml.unclosed"},
         {"<world>\n <group>\n  ^<models>", true, "xml.unclosed"},
         {"<world>\n <group>^</grup>\n</world>", true, "xml.mismatch"},

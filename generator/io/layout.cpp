@@ -22,7 +22,7 @@ constexpr std::string_view kLayouts[] = {"PNT", "PTN",  "PNTI", "PTNI", "PNI", "
 /// vertices, and indices to the end.
 enum class Counts { head, each, one };
 
-/// What a count counts: entries of its list (of indices: numbers), numbers, triangles, quads.
+/// Units of a count: entries of its list (of indices: numbers), numbers, triangles, quads.
 constexpr std::size_t kUnits = 4;
 
 constexpr std::size_t widthOf(char list) {

@@ -436,11 +436,11 @@ RawMesh decodePly(std::string_view bytes, const std::string& fileName, bool face
 }
 
 bool isPlyProfile(std::string_view bytes, const std::string& fileName) {
-    constexpr std::size_t kMostFaces = 2;
+    constexpr std::size_t kMaxFaces = 2;
     if (!looksLikePly(bytes)) return false;
     try {
         for (const PlyElement& element : parsePlyHeader(bytes, fileName).elements)
-            if (element.name != "vertex" && element.count > kMostFaces) return false;
+            if (element.name != "vertex" && element.count > kMaxFaces) return false;
         const RawMesh mesh = decodePly(bytes, fileName, false);
         if (!mesh.indices.empty()) return isProfileWithDummy(mesh);
         return mesh.positions.size() > 1 &&

@@ -265,7 +265,7 @@ bool isLoose(const MeshForm& form) {
 
 bool hasDigits(std::string_view bytes) { return std::any_of(bytes.begin(), bytes.end(), isDigit); }
 
-/// What a file is that is no mesh by its first bytes; empty for any other.
+/// Returns the kind of a file that is no mesh, by its first bytes; empty for any other.
 std::string_view kindOfOther(std::string_view bytes) {
     struct Kind {
         std::string_view start, name;

@@ -92,7 +92,7 @@ TEST_CASE("the JSON form has every table") {
     CHECK(cutoff.at("aliases") == json({"cut", "cutoffAngle", "spotCutoff"}));
     CHECK(cutoff.at("max") == 180);
     CHECK(rowOf(light.at("attributes"), "type").at("words").at(1) ==
-          json({"directional", "direction", "sun"}));
+          json({"directional", "direction", "dir", "sun"}));
     CHECK(rowOf(all.at("shapes"), "cone").at("arguments").at(0).at("name") == "RADIUS");
     CHECK(rowOf(all.at("formats"), "jpeg").at("endings") == json({"jpg", "jpeg"}));
     CHECK(rowOf(all.at("options"), "fov").at("max") == 179);

@@ -66,7 +66,7 @@ std::size_t addEyePositions(const Api& api, GpuMesh& gpu, const MeshData& data, 
     return all.size() * sizeof(glm::vec3);
 }
 
-/// Three vertices of its own a triangle, with its normal and middle.
+/// Three separate vertices for each triangle, with its normal and middle.
 std::vector<FlatVertex> facesOf(const MeshData& data) {
     const generator::Mesh& mesh = data.mesh;
     const std::vector<std::uint32_t>& indices = mesh.indices();

@@ -321,7 +321,7 @@ class Placer {
         return index;
     }
 
-    /// Coordinates that reach far are taken relative to those nearest to the viewer.
+    /// Coordinates that reach far are stored relative to those nearest to the viewer.
     void settleUvs() {
         out_.uvOrigin = mesh_.uvOrigin();
         dvec2 origin(0.0);

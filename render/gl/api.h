@@ -60,9 +60,10 @@ namespace farol::render::gl {
     X(GetString, PFNGLGETSTRINGPROC)                                                 \
     X(GetStringi, PFNGLGETSTRINGIPROC)                                               \
     X(GetUniformLocation, PFNGLGETUNIFORMLOCATIONPROC)                               \
+    X(LineWidth, PFNGLLINEWIDTHPROC)                                                 \
     X(LinkProgram, PFNGLLINKPROGRAMPROC)                                             \
-    X(MinSampleShading, PFNGLMINSAMPLESHADINGPROC)                                   \
     X(PixelStorei, PFNGLPIXELSTOREIPROC)                                             \
+    X(PointSize, PFNGLPOINTSIZEPROC)                                                 \
     X(PolygonMode, PFNGLPOLYGONMODEPROC)                                             \
     X(ReadPixels, PFNGLREADPIXELSPROC)                                               \
     X(RenderbufferStorageMultisample, PFNGLRENDERBUFFERSTORAGEMULTISAMPLEPROC)       \

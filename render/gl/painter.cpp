@@ -9,6 +9,7 @@
 #include <optional>
 #include <set>
 
+#include "render/gl/box_mean.h"
 #include "render/gl/mesh_store.h"
 #include "render/gl/program.h"
 #include "render/gl/target.h"
@@ -53,14 +54,6 @@ void setSurface(const Api& api, const DrawItem& item, const LinkedProgram& progr
     api.Uniform1f(program.seenFrom, item.inside ? -1.0F : 1.0F);
 }
 
-/// Sets `image`, of the plan's size, to sum / whole, rounded.
-void resolveSamples(const std::vector<std::uint32_t>& sum, std::uint32_t whole,
-                    image::Image& image) {
-    image.pixels.resize(sum.size());
-    for (std::size_t i = 0; i < sum.size(); ++i)
-        image.pixels[i] = static_cast<std::uint8_t>((sum[i] + whole / 2) / whole);
-}
-
 GLsizei countOf(const DrawItem& item) { return static_cast<GLsizei>(item.indices); }
 
 /// Where the item's indices begin in their buffer.
@@ -85,6 +78,7 @@ ProgramKey keyOf(const FramePlan& plan, const Pass& pass, const Batch& batch) {
     ProgramKey key;
     key.features = pass.features | (batch.features & pass.itemFeatures);
     if (batch.instanced) key.features.add(Feature::instanced);
+    if (!key.features.has(Feature::textured)) key.features.remove(Feature::supersampled);
     if (key.features.has(Feature::surface))
         key.surfaceKind = plan.items[plan.batches.order[batch.first]].surface->kind->glsl;
     const auto set = static_cast<std::size_t>(first.lightSet);
@@ -104,6 +98,7 @@ struct Painter::State {
     MeshStore meshes{api, placeBuffer, kMeshBytes};
     TextureStore textures{api, facts, kTextureBytes};
     std::optional<Target> target;
+    BoxMean mean;
     VertexArray lineArray{api}, emptyArray{api};
     Buffer lineBuffer{api};
     std::vector<Buffer> lightBuffers;
@@ -116,7 +111,6 @@ struct Painter::State {
         api.CullFace(GL_BACK);
         api.Enable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
         api.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
-        api.MinSampleShading(1.0F);
         restoreState();
     }
 
@@ -130,6 +124,7 @@ struct Painter::State {
         api.DepthFunc(GL_GREATER);
         api.FrontFace(GL_CCW);
         api.PolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+        mean.drop();
     }
 
     void prepareTextures(const FramePlan& plan, const OpenTexture& open);
@@ -137,14 +132,17 @@ struct Painter::State {
     void prepare(const FramePlan& plan, const OpenTexture& open);
     void preparePlaces(const FramePlan& plan);
     void begin(const FramePlan& plan, const Pass& pass);
+    void read(const FramePlan& plan, std::size_t pass, image::Image& image);
     void drawPass(const FramePlan& plan, const Pass& pass, int& drawCalls);
     void drawModels(const FramePlan& plan, const Pass& pass, const PassItem& models,
                     int& drawCalls);
     void drawLines(const FramePlan& plan, const Pass& pass, const PassItem& lines, int& drawCalls);
-    void drawBackdrop(const FramePlan& plan, const PassItem& backdrop, int& drawCalls);
+    void drawBackdrop(const FramePlan& plan, const Pass& pass, const PassItem& backdrop,
+                      int& drawCalls);
     void drawOne(const DrawItem& item, const GpuMesh& mesh, const LinkedProgram& program);
     Target::Resolver resolver(int samples);
     void setLights(const DrawItem& item, int count, const LinkedProgram& program);
+    void setScale(const Pass& pass, const LinkedProgram& program);
     void setMaterial(const FramePlan& plan, const DrawItem& item, const LinkedProgram& program);
 };
 
@@ -251,6 +249,11 @@ void Painter::State::setLights(const DrawItem& item, int count, const LinkedProg
     if (program.lightCount >= 0) api.Uniform1i(program.lightCount, count);
 }
 
+void Painter::State::setScale(const Pass& pass, const LinkedProgram& program) {
+    if (program.samplesAcross >= 0)
+        api.Uniform1f(program.samplesAcross, static_cast<float>(pass.target.scale));
+}
+
 void Painter::State::setMaterial(const FramePlan& plan, const DrawItem& item,
                                  const LinkedProgram& program) {
     const glm::vec3 base = item.emissive + item.ambient * plan.globalAmbient;
@@ -309,6 +312,7 @@ void Painter::State::drawModels(const FramePlan& plan, const Pass& pass, const P
                                      glm::value_ptr(worldFromView));
             if (program.nearest >= 0)
                 api.Uniform1f(program.nearest, static_cast<float>(plan.view.near));
+            setScale(pass, program);
         }
         if (key.features.has(Feature::surface)) setSurface(api, first, program);
         api.Uniform3fv(program.plainColor, 1, glm::value_ptr(batch.plainColor));
@@ -359,21 +363,27 @@ void Painter::State::drawLines(const FramePlan& plan, const Pass& pass, const Pa
 
 /// Where nothing is drawn yet: the depth is still that of the clear, which nothing that is drawn
 /// has.
-void Painter::State::drawBackdrop(const FramePlan& plan, const PassItem& backdrop, int& drawCalls) {
+void Painter::State::drawBackdrop(const FramePlan& plan, const Pass& pass, const PassItem& backdrop,
+                                  int& drawCalls) {
+    FeatureSet features = pass.features & FeatureSet{Feature::supersampled};
     const GLuint texture = textureNames[static_cast<std::size_t>(backdrop.texture)];
     api.BindVertexArray(emptyArray.name());
     api.DepthFunc(GL_EQUAL);
     api.DepthMask(GL_FALSE);
     if (backdrop.kind == PassItem::Kind::skybox) {
-        const LinkedProgram& program = programs.get({Shaders::window, {Feature::skybox}, 0});
+        features.add(Feature::skybox);
+        const LinkedProgram& program = programs.get({Shaders::window, features, 0});
         const glm::mat3 worldFromView(glm::transpose(plan.view.rotation));
         const glm::vec2 tangents(plan.view.tanHalfFov);
         api.UseProgram(program.program.name());
         api.UniformMatrix3fv(program.worldFromView, 1, GL_FALSE, glm::value_ptr(worldFromView));
         api.Uniform2f(program.tangents, tangents.x, tangents.y);
+        setScale(pass, program);
         api.BindTexture(GL_TEXTURE_CUBE_MAP, texture);
     } else {
-        api.UseProgram(programs.get({Shaders::window, {}, 0}).program.name());
+        const LinkedProgram& program = programs.get({Shaders::window, features, 0});
+        api.UseProgram(program.program.name());
+        setScale(pass, program);
         api.BindTexture(GL_TEXTURE_2D, texture);
     }
     api.DrawArrays(GL_TRIANGLES, 0, 3);
@@ -390,14 +400,18 @@ Target::Resolver Painter::State::resolver(int samples) {
 
 /// Binds the pass's target, made anew where the last pass had another.
 void Painter::State::begin(const FramePlan& plan, const Pass& pass) {
-    const Target::Format format{plan.view.size.x, plan.view.size.y, pass.target.samples,
-                                pass.target.wide};
+    const PassTarget& wanted = pass.target;
+    const glm::ivec2 whole = plan.view.size * wanted.scale;
+    const Target::Format format{whole.x, wanted.rows * wanted.scale, wanted.samples};
     if (!target || target->format() != format) {
         target.reset();  // the old one first: two large ones need not fit
         target.emplace(api, format, facts.packInvert);
     }
-    target->bind();
-    (pass.state.eachSample ? api.Enable : api.Disable)(GL_SAMPLE_SHADING);
+    // The viewport is the whole image, of which the target shows a band.
+    const int below = plan.view.size.y - wanted.firstRow - wanted.rows;
+    target->bind({0, -below * wanted.scale, whole.x, whole.y});
+    api.LineWidth(static_cast<float>(wanted.scale));
+    api.PointSize(static_cast<float>(wanted.scale));
 }
 
 void Painter::State::drawPass(const FramePlan& plan, const Pass& pass, int& drawCalls) {
@@ -417,11 +431,26 @@ void Painter::State::drawPass(const FramePlan& plan, const Pass& pass, int& draw
                 break;
             case PassItem::Kind::skybox:
             case PassItem::Kind::picture:
-                drawBackdrop(plan, item, drawCalls);
+                drawBackdrop(plan, pass, item, drawCalls);
                 break;
         }
     }
     api.Enable(GL_DEPTH_TEST);
+}
+
+/// Reads what a pass has drawn: the image, or a part of the mean of its band of rows.
+void Painter::State::read(const FramePlan& plan, std::size_t pass, image::Image& image) {
+    const PassTarget& drawn = plan.passes[pass].target;
+    target->resolve(resolver(drawn.samples));
+    if (plan.passes.size() == 1 && drawn.scale == 1) {
+        target->read(0, drawn.rows, image.pixels.data());
+        return;
+    }
+    if (!mean.begun()) mean.begin(plan.view.size.x, drawn.rows);
+    mean.add(*target, drawn.scale);
+    const bool isLast =
+        pass + 1 == plan.passes.size() || plan.passes[pass + 1].target.firstRow != drawn.firstRow;
+    if (isLast) mean.finish(drawn.firstRow, image);
 }
 
 void Painter::draw(const FramePlan& plan, const OpenTexture& open, image::Image& image,
@@ -436,30 +465,19 @@ void Painter::draw(const FramePlan& plan, const OpenTexture& open, image::Image&
             warnings.push_back(warningOf(note, plan.textures[i]));
     const auto start = std::chrono::steady_clock::now();
     bool transparent = false;
-    std::vector<std::uint16_t> part;
-    std::vector<std::uint32_t> sum;
-    std::uint32_t parts = 0;
-    for (const Pass& pass : plan.passes) {
+    image.width = plan.view.size.x;
+    image.height = plan.view.size.y;
+    image.pixels.resize(static_cast<std::size_t>(image.width) *
+                        static_cast<std::size_t>(image.height) * 4);
+    for (std::size_t i = 0; i < plan.passes.size(); ++i) {
+        const Pass& pass = plan.passes[i];
         s.drawPass(plan, pass, drawCalls);
         transparent |= pass.target.clearColor && pass.target.clearColor->a < 1.0F;
         if (pass.target.output == PassOutput::none) continue;
         s.api.Finish();  // else the time of drawing would be counted as reading
         const auto drawn = std::chrono::steady_clock::now();
-        const Target::Resolver resolve = s.resolver(pass.target.samples);
-        if (pass.target.output == PassOutput::image) {
-            s.target->read(resolve, image);
-        } else {
-            s.target->read(resolve, part);
-            sum.resize(part.size());
-            for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += part[i];
-            ++parts;
-        }
+        s.read(plan, i, image);
         timings.readbackMs += sinceMs(drawn);
-    }
-    if (parts > 0) {
-        image.width = plan.view.size.x;
-        image.height = plan.view.size.y;
-        resolveSamples(sum, 257U * parts, image);
     }
     throwOnError(s.api, "drawing");
     if (transparent) unpremultiply(image);

@@ -43,6 +43,7 @@ constexpr std::array<FeatureName, kFeatures> kNames{{
     {Feature::mappingSphere, "MAPPING_SPHERE"},
     {Feature::texgenObject, "TEXGEN_OBJECT"},
     {Feature::texgenEye, "TEXGEN_EYE"},
+    {Feature::supersampled, "SUPERSAMPLED"},
     {Feature::vertexColor, "VERTEX_COLOR"},
     {Feature::surface, "SURFACE"},
     {Feature::surfaceCaps, "SURFACE_CAPS"},
@@ -169,6 +170,7 @@ const LinkedProgram& ProgramCache::get(const ProgramKey& key) {
     linked.mappedFrom = at("mappedFrom");
     linked.nearest = at("nearest");
     linked.tangents = at("tangents");
+    linked.samplesAcross = at("samplesAcross");
     return programs_.emplace(key, std::move(linked)).first->second;
 }
 

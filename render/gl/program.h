@@ -28,7 +28,8 @@ struct LinkedProgram {
     GLint materialDiffuse, materialBase, materialAmbient, materialSpecular, materialShininess;
     GLint unitFromObject, unitEye, surfaceLengths, surfaceForm, surfaceUv, surfaceDiscs, balance,
         seenFrom;
-    GLint lightCount, plainColor, planeS, planeT, uvFrom, mappedFrom, nearest, tangents;
+    GLint lightCount, plainColor, planeS, planeT, uvFrom, mappedFrom, nearest, tangents,
+        samplesAcross;
 };
 
 /// Programs by key, compiled once. Throws std::runtime_error with the compiler's log: a shader

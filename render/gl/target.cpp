@@ -30,16 +30,15 @@ void check(const Api& api) {
 
 Target::Target(const Api& api, const Format& format, bool packInvert)
     : api_(api), format_(format), packInvert_(packInvert), drawn_(api) {
-    const auto [width, height, samples, wide] = format;
-    const GLenum channels = wide ? GL_RGBA16 : GL_RGBA8;
-    color_ = storage(api, channels, width, height, 1);
+    const auto [width, height, samples] = format;
+    color_ = storage(api, GL_RGBA8, width, height, 1);
     depth_ = storage(api, GL_DEPTH_COMPONENT32F, width, height, samples);
     api.BindFramebuffer(GL_FRAMEBUFFER, drawn_.name());
     attach(api, GL_DEPTH_ATTACHMENT, depth_);
     if (samples > 1) {
         samplesOf_ = Texture(api);
         api.BindTexture(GL_TEXTURE_2D_MULTISAMPLE, samplesOf_.name());
-        api.TexImage2DMultisample(GL_TEXTURE_2D_MULTISAMPLE, samples, channels, width, height,
+        api.TexImage2DMultisample(GL_TEXTURE_2D_MULTISAMPLE, samples, GL_RGBA8, width, height,
                                   GL_TRUE);
         api.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D_MULTISAMPLE,
                                  samplesOf_.name(), 0);
@@ -51,9 +50,9 @@ Target::Target(const Api& api, const Format& format, bool packInvert)
     check(api);
 }
 
-void Target::bind() const {
+void Target::bind(const glm::ivec4& viewport) const {
     api_.BindFramebuffer(GL_FRAMEBUFFER, drawn_.name());
-    api_.Viewport(0, 0, format_.width, format_.height);
+    api_.Viewport(viewport.x, viewport.y, viewport.z, viewport.w);
 }
 
 void Target::resolve(const Resolver& resolver) const {
@@ -65,29 +64,15 @@ void Target::resolve(const Resolver& resolver) const {
     api_.DrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-template <typename Channel>
-void Target::readAs(const Resolver& resolver, GLenum type, std::vector<Channel>& pixels) const {
+void Target::read(int first, int rows, std::uint8_t* pixels) const {
     const std::size_t row = static_cast<std::size_t>(format_.width) * 4;
-    const auto rows = static_cast<std::size_t>(format_.height);
-    pixels.resize(row * rows);
-    resolve(resolver);
+    const auto count = static_cast<std::size_t>(rows);
     api_.PixelStorei(GL_PACK_ALIGNMENT, 1);
     if (packInvert_) api_.PixelStorei(kPackInvert, GL_TRUE);  // top row first
-    api_.ReadPixels(0, 0, format_.width, format_.height, GL_RGBA, type, pixels.data());
+    api_.ReadPixels(0, first, format_.width, rows, GL_RGBA, GL_UNSIGNED_BYTE, pixels);
     if (packInvert_) return;
-    Channel* const first = pixels.data();
-    for (std::size_t i = 0; i < rows / 2; ++i)
-        std::swap_ranges(first + i * row, first + (i + 1) * row, first + (rows - 1 - i) * row);
-}
-
-void Target::read(const Resolver& resolver, image::Image& image) const {
-    image.width = format_.width;
-    image.height = format_.height;
-    readAs(resolver, GL_UNSIGNED_BYTE, image.pixels);
-}
-
-void Target::read(const Resolver& resolver, std::vector<std::uint16_t>& pixels) const {
-    readAs(resolver, GL_UNSIGNED_SHORT, pixels);
+    for (std::size_t i = 0; i < count / 2; ++i)
+        std::swap_ranges(pixels + i * row, pixels + (i + 1) * row, pixels + (count - 1 - i) * row);
 }
 
 }  // namespace farol::render::gl

@@ -1,21 +1,19 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
+#include <glm/glm.hpp>
 
-#include "image/image.h"
 #include "render/gl/objects.h"
 
 namespace farol::render::gl {
 
-/// The framebuffer of a frame: RGBA and 32-bit float depth, with samples, and where there are
+/// The framebuffer of a pass: RGBA and 32-bit float depth, with samples, and where there are
 /// samples the picture they are resolved into. (OSMesa's own depth buffer has 24 bits at most.)
 class Target {
   public:
     struct Format {
         int width = 0, height = 0;
         int samples = 1;
-        bool wide = false;  ///< 16 bits a channel, else 8
         bool operator==(const Format&) const = default;
     };
 
@@ -29,19 +27,15 @@ class Target {
         GLuint program = 0, emptyArray = 0;
     };
 
-    void bind() const;
+    /// Bound, with `rect` of its window coordinates (x, y, width, height) as the viewport.
+    void bind(const glm::ivec4& viewport) const;
     /// Makes the picture of the samples, where there are samples.
     void resolve(const Resolver& resolver) const;
-    /// Resolves and reads the picture of 8 bits a channel, top row first, premultiplied alpha as
-    /// drawn.
-    void read(const Resolver& resolver, image::Image& image) const;
-    /// The same of 16 bits a channel, 0..65535.
-    void read(const Resolver& resolver, std::vector<std::uint16_t>& pixels) const;
+    /// Reads `rows` rows from the row `first` above the lowest, the topmost first, 4 bytes a pixel,
+    /// premultiplied alpha as drawn; resolved before.
+    void read(int first, int rows, std::uint8_t* pixels) const;
 
   private:
-    template <typename Channel>
-    void readAs(const Resolver& resolver, GLenum type, std::vector<Channel>& pixels) const;
-
     const Api& api_;
     Format format_;
     bool packInvert_;

@@ -14,7 +14,7 @@ namespace {
 
 // Core-seconds, the largest seen for each of several scenes (docs/benchmarks/rendering.md).
 constexpr double kPixelCost = 60e-9;      // once
-constexpr double kPixelPassCost = 35e-9;  // clear, resolve and sum of a pass
+constexpr double kPixelPassCost = 35e-9;  // clear, resolve and read a pass, of the target's pixels
 constexpr double kFragmentCost = 6e-9;    // without light
 constexpr double kLightCost = 18e-9;      // of a fragment
 constexpr double kSurfaceCost = 25e-9;    // of a fragment that takes its normal from a surface
@@ -71,9 +71,9 @@ struct DrawShare {
 void addShares(const FramePlan& plan, const Pass& pass, const PassItem& item,
                std::vector<DrawShare>& shares) {
     if (item.kind != PassItem::Kind::models) return;
-    const double shadings = pass.state.eachSample     ? pass.target.samples
-                            : pass.target.samples > 1 ? 1.5
-                                                      : 1.0;
+    const double shadings = static_cast<double>(pass.target.scale) * pass.target.scale *
+                            (pass.target.samples > 1 ? 1.5 : 1.0) * pass.target.rows /
+                            plan.view.size.y;
     const bool outlined = pass.state.polygons != Polygons::filled;
     for (std::size_t b = item.first; b < item.first + item.count; ++b) {
         const Batch& batch = plan.batches.batches[b];
@@ -109,7 +109,10 @@ std::string rounded(double coreSeconds) {
 FrameCost estimateCost(const FramePlan& plan) {
     FrameCost cost;
     const double pixels = static_cast<double>(plan.view.size.x) * plan.view.size.y;
-    cost.pixels = pixels * (kPixelCost + kPixelPassCost * static_cast<double>(plan.passes.size()));
+    cost.pixels = pixels * kPixelCost;
+    for (const Pass& pass : plan.passes)
+        cost.pixels += kPixelPassCost * pass.target.scale * pass.target.scale * pass.target.rows *
+                       plan.view.size.x;
     std::vector<DrawShare> shares(plan.items.size());
     for (const Pass& pass : plan.passes)
         for (const PassItem& item : pass.items) addShares(plan, pass, item, shares);

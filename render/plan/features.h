@@ -30,7 +30,8 @@ enum class Feature : std::uint8_t {
     mappingSphere,
     texgenObject,
     texgenEye,
-    vertexColor,  ///< the mesh's own colours modulate, as a texture does
+    supersampled,  ///< a pixel of the target is a part of one of the image
+    vertexColor,   ///< the mesh's own colours modulate, as a texture does
     // Exact surface behind a mesh.
     surface,
     surfaceCaps,
@@ -63,6 +64,7 @@ class FeatureSet {
     constexpr bool has(Feature feature) const { return (bits_ & bit(feature)) != 0; }
     constexpr bool hasAny(const FeatureSet& other) const { return (bits_ & other.bits_) != 0; }
     constexpr void add(Feature feature) { bits_ |= bit(feature); }
+    constexpr void remove(Feature feature) { bits_ &= ~bit(feature); }
     constexpr FeatureSet operator|(const FeatureSet& other) const {
         return of(bits_ | other.bits_);
     }

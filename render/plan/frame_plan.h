@@ -81,18 +81,18 @@ struct PassItem {
 
 /// Use of the pixels that a pass has drawn.
 enum class PassOutput {
-    none,   ///< they stay for the next pass
-    image,  ///< they are the image
-    mean    ///< the image is the mean of all such passes
+    none,  ///< they stay for the next pass
+    mean   ///< rows of the image are their mean, and that of all such passes of the same rows
 };
 
-/// Where a pass draws. Passes in a row with the same size, samples and channels share their pixels.
+/// Where a pass draws. Passes in a row with the same target share its pixels.
 struct PassTarget {
-    int samples = 1;    ///< of a pixel; 1, or the size of one of GlFacts::samplePatterns
-    bool wide = false;  ///< 16 bits a channel, so that a mean is rounded to levels once
+    int scale = 1;    ///< the target is so many times as wide and high as the rows of the image
+    int samples = 1;  ///< of its pixel; 1, or the size of one of GlFacts::samplePatterns
+    int firstRow = 0, rows = 0;           ///< of the image, from its top
     std::optional<glm::vec4> clearColor;  ///< none: every sample is drawn, or kept
     bool clearDepth = true;
-    PassOutput output = PassOutput::image;
+    PassOutput output = PassOutput::mean;
 };
 
 enum class Polygons { filled, outlined, cornered };
@@ -100,7 +100,6 @@ enum class Polygons { filled, outlined, cornered };
 struct PassState {
     bool depthTest = true;
     Polygons polygons = Polygons::filled;  ///< of models
-    bool eachSample = false;               ///< shades every sample, not every pixel
 };
 
 struct Pass {
@@ -115,7 +114,7 @@ struct Pass {
 /// Choices that passes and features follow from.
 struct FrameStyle {
     Layer layer = Layer::color;
-    int samples = 1;
+    int samples = 1;  ///< at least so many
     scene::Shading shading = scene::Shading::phong;
     bool lit = true;  ///< false: materials show as their plain diffuse colour
     scene::Viewer viewer = scene::Viewer::infinite;

@@ -126,6 +126,14 @@ void addItems(const FramePlan& plan, Pass& pass) {
         pass.items.push_back({PassItem::Kind::picture, 0, 0, plan.style.backgroundTexture});
 }
 
+/// As many as keep a target of larger scale within kMaxTargetPixels.
+int rowsOfTarget(const glm::ivec2& size, const Sampling& sampling) {
+    constexpr std::int64_t kMaxTargetPixels = 32 << 20;  // 256 MiB of colour and depth
+    if (sampling.scale == 1) return size.y;
+    const std::int64_t row = std::int64_t{size.x} * sampling.scale * sampling.scale;
+    return static_cast<int>(std::clamp<std::int64_t>(kMaxTargetPixels / row, 1, size.y));
+}
+
 }  // namespace
 
 void composePasses(FramePlan& plan, const GlFacts& gl) {
@@ -139,12 +147,11 @@ void composePasses(FramePlan& plan, const GlFacts& gl) {
         batch.plainColor = ids ? colorOf(first.id) : first.diffuse;
     }
 
-    const Sampling sampling = chooseSampling(style.samples, gl);
+    const glm::ivec2& size = plan.view.size;
+    const Sampling sampling = chooseSampling(style.samples, gl, std::max(size.x, size.y));
     Pass pass;
+    pass.target.scale = sampling.scale;
     pass.target.samples = sampling.samples;
-    // With several passes each sample is shaded, and changes within a pixel are averaged.
-    pass.state.eachSample = pass.target.wide = sampling.passes > 1;
-    pass.target.output = sampling.passes > 1 ? PassOutput::mean : PassOutput::image;
     if (style.skyboxTexture < 0 && style.backgroundTexture < 0)
         pass.target.clearColor = style.background;
     if (style.layer == Layer::color) {
@@ -152,11 +159,18 @@ void composePasses(FramePlan& plan, const GlFacts& gl) {
         if (style.shading == scene::Shading::points) pass.state.polygons = Polygons::cornered;
     }
     chooseFeatures(style, pass);
+    if (sampling.scale > 1) pass.features.add(Feature::supersampled);
     addItems(plan, pass);
-    plan.passes.assign(static_cast<std::size_t>(sampling.passes), pass);
-    for (int i = 0; i < sampling.passes; ++i)
-        plan.passes[static_cast<std::size_t>(i)].clip =
-            movedClip(plan.view, passOffset(i, sampling.passes));
+    const int rowsAtOnce = rowsOfTarget(size, sampling);
+    plan.passes.clear();
+    for (int row = 0; row < size.y; row += rowsAtOnce) {
+        pass.target.firstRow = row;
+        pass.target.rows = std::min(rowsAtOnce, size.y - row);
+        for (int i = 0; i < sampling.passes; ++i) {
+            pass.clip = movedClip(plan.view, passOffset(i, sampling));
+            plan.passes.push_back(pass);
+        }
+    }
 }
 
 }  // namespace farol::render

@@ -6,7 +6,7 @@
 namespace farol::render {
 
 /// Makes the passes of a frame from its style, with the batches and the features of its items: one
-/// pass, or several that are averaged where the GL gives fewer samples than are asked for.
+/// pass, or several of which the mean is taken, and for large targets as many bands of rows.
 void composePasses(FramePlan& plan, const GlFacts& gl);
 
 }  // namespace farol::render

@@ -79,7 +79,9 @@ class Planner {
         plan_.camera =
             chooseCamera(scene_, options_, list.bounds, static_cast<double>(size.x) / size.y);
         plan_.view = viewOf(plan_.camera, size);
-        samples_ = samplePattern(style_.samples, gl_);
+        const Sampling sampling = chooseSampling(style_.samples, gl_, std::max(size.x, size.y));
+        samples_ = samplePattern(sampling, gl_);
+        snapPx_ = gl_.snapPx / sampling.scale;
         addInstances(scene_, list, plan_.view, {});
         plan_.findings = list.findings;
         if (placed_.entity) addEntity();
@@ -199,7 +201,7 @@ class Planner {
             style_.shading == scene::Shading::points)
             return false;
         const std::optional<PixelRect> rect = pixelRect(box, viewFromObject, plan_.view);
-        return rect && missesSamples(*rect, samples_, gl_.snapPx);
+        return rect && missesSamples(*rect, samples_, snapPx_);
     }
 
     void add(const InstanceList& list, std::size_t index, const ViewTransform& view,
@@ -451,6 +453,7 @@ class Planner {
     FrameStyle& style_ = plan_.style;
     double errorPx_ = options_.errorPx.value_or(kDefaultErrorPx);
     SamplePattern samples_;
+    double snapPx_ = 0.0;  ///< of the image
     ReachedLights reached_{plan_.lightSets};
     std::size_t nearVertices_ = 0;  ///< placed in double
     std::vector<int> textureOf_;    ///< of an InstanceList, in plan_.textures

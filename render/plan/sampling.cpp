@@ -5,30 +5,31 @@
 
 namespace farol::render {
 
-Sampling chooseSampling(int wanted, const GlFacts& gl) {
-    if (wanted <= 1 || gl.samplePatterns.empty()) return {1, std::max(1, wanted)};
-    int most = 1;
-    for (const SamplePattern& pattern : gl.samplePatterns) {
-        most = static_cast<int>(pattern.size());
-        if (most >= wanted) break;
-    }
-    return {most, std::max(1, wanted / most)};
+Sampling chooseSampling(int wanted, const GlFacts& gl, int side) {
+    if (wanted <= 1) return {};
+    if (wanted <= 4)
+        for (const SamplePattern& pattern : gl.samplePatterns)
+            if (static_cast<int>(pattern.size()) >= wanted)
+                return {1, static_cast<int>(pattern.size()), 1};
+    // Time against error decides (docs/benchmarks/accuracy.md). Each pass draws all triangles anew,
+    // and within one the samples stand in rows and columns.
+    constexpr std::array<Sampling, 5> kLarger{
+        {{2, 1, 1}, {3, 1, 1}, {2, 1, 2}, {2, 1, 4}, {1, 1, 16}}};
+    for (const Sampling& one : kLarger)
+        if (one.scale * one.scale * one.passes >= wanted && one.scale * side <= gl.maxTargetSide)
+            return one;
+    return kLarger.back();
 }
 
-glm::dvec2 passOffset(int pass, int passes) {
-    if (passes == 1) return glm::dvec2(0.0);
-    // Turned by quarters, and beside GL's usual four samples no two of all passes in one row or
-    // column: of such offsets those with the least error of the area beside random edges, a third
-    // of them within four degrees of upright or level (rms 0.057 and 0.042 of a pixel; 0.091 for
-    // the four alone).
-    constexpr std::array<glm::dvec2, 2> kTwo{{{-5.0 / 64, 5.0 / 64}, {5.0 / 64, -5.0 / 64}}};
-    constexpr std::array<glm::dvec2, 4> kFour{{{7.0 / 64, 2.0 / 64},
-                                               {-2.0 / 64, 7.0 / 64},
-                                               {-7.0 / 64, -2.0 / 64},
-                                               {2.0 / 64, -7.0 / 64}}};
-    if (passes == 2) return kTwo[static_cast<std::size_t>(pass)];
-    if (passes <= 4) return kFour[static_cast<std::size_t>(pass)];
-    // Without multisampling: Halton points of bases 2 and 3.
+glm::dvec2 passOffset(int pass, const Sampling& sampling) {
+    if (sampling.passes == 1) return glm::dvec2(0.0);
+    constexpr std::array<glm::dvec2, 2> kTwo{{{-1.0 / 4, 1.0 / 4}, {1.0 / 4, -1.0 / 4}}};
+    constexpr std::array<glm::dvec2, 4> kFour{
+        {{1.0 / 8, 3.0 / 8}, {3.0 / 8, -1.0 / 8}, {-1.0 / 8, -3.0 / 8}, {-3.0 / 8, 1.0 / 8}}};
+    const auto at = static_cast<std::size_t>(pass);
+    if (sampling.passes == 2) return kTwo[at] / double(sampling.scale);
+    if (sampling.passes == 4) return kFour[at] / double(sampling.scale);
+    // Halton points of bases 2 and 3.
     const auto halton = [](int index, int base) {
         double value = 0.0;
         double fraction = 1.0;
@@ -38,11 +39,11 @@ glm::dvec2 passOffset(int pass, int passes) {
         }
         return value;
     };
-    return {halton(pass + 1, 2) - 0.5, halton(pass + 1, 3) - 0.5};
+    return glm::dvec2(halton(pass + 1, 2) - 0.5, halton(pass + 1, 3) - 0.5) /
+           double(sampling.scale);
 }
 
-SamplePattern samplePattern(int wanted, const GlFacts& gl) {
-    const Sampling sampling = chooseSampling(wanted, gl);
+SamplePattern samplePattern(const Sampling& sampling, const GlFacts& gl) {
     const SamplePattern middle{glm::dvec2(0.5)};
     const auto pattern = std::find_if(
         gl.samplePatterns.begin(), gl.samplePatterns.end(), [&](const SamplePattern& one) {
@@ -51,9 +52,11 @@ SamplePattern samplePattern(int wanted, const GlFacts& gl) {
     SamplePattern all;
     for (int pass = 0; pass < sampling.passes; ++pass) {
         // The picture moves by the offset, the samples stay.
-        const glm::dvec2 moved = passOffset(pass, sampling.passes);
-        for (const glm::dvec2& at : pattern == gl.samplePatterns.end() ? middle : *pattern)
-            all.push_back(at - moved);
+        const glm::dvec2 moved = passOffset(pass, sampling);
+        for (int y = 0; y < sampling.scale; ++y)
+            for (int x = 0; x < sampling.scale; ++x)
+                for (const glm::dvec2& at : pattern == gl.samplePatterns.end() ? middle : *pattern)
+                    all.push_back((glm::dvec2(x, y) + at) / double(sampling.scale) - moved);
     }
     return all;
 }

@@ -6,19 +6,23 @@
 
 namespace farol::render {
 
-/// How an image is sampled: by `passes`, each of which moves the image by a part of a pixel, of
-/// `samples` at once.
+/// How an image's samples are taken: in targets `scale` times as wide and high as the image, by
+/// passes that each move it by a part of a pixel. `samples` are the GL's own of each pixel of such
+/// a target, which share one shading: more than one only at scale 1 and in one pass.
 struct Sampling {
-    int samples = 1, passes = 1;
+    int scale = 1, samples = 1, passes = 1;
 };
 
-/// `wanted`: 1, 2, 4, 8 or 16. Takes the fewest at once that suffice, else the most and passes.
-Sampling chooseSampling(int wanted, const GlFacts& gl);
+/// At least `wanted` (1, 2, 4, 8 or 16) samples a pixel: up to four by the GL's multisampling,
+/// which shades a pixel once; more by larger targets, where each sample is shaded. `side`: the
+/// longer one of the image, px.
+Sampling chooseSampling(int wanted, const GlFacts& gl, int side);
 
-/// Offset of a pass within a pixel, -0.5..0.5: the centres of the cells of a rotated grid.
-glm::dvec2 passOffset(int pass, int passes);
+/// By how much a pass moves the image, px, -0.5..0.5: so that no two samples of all passes share a
+/// row or column where their number allows.
+glm::dvec2 passOffset(int pass, const Sampling& sampling);
 
-/// Returns the positions of `wanted` samples over all passes.
-SamplePattern samplePattern(int wanted, const GlFacts& gl);
+/// All positions in a pixel that samples are taken at, over all passes.
+SamplePattern samplePattern(const Sampling& sampling, const GlFacts& gl);
 
 }  // namespace farol::render

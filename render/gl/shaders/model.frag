@@ -79,7 +79,7 @@ void main() {
     vec4 texel =
         sampleSphere(positionMapped, CHANGE_RIGHT(positionMapped), CHANGE_UP(positionMapped));
 #elif defined(TEXTURED)
-    vec4 texel = texture(image, uv);
+    vec4 texel = sampleMesh();
 #endif
 #if defined(LAYER_ID)
     result = vec4(plainColor, 1.0);

@@ -4,6 +4,9 @@
 #ifdef TEXTURED
 in vec2 uv;
 uniform sampler2D image;
+#ifdef SUPERSAMPLED
+uniform float samplesAcross;  // of a pixel of the image, whose level of detail all its samples have
+#endif
 
 // The change a pixel to the right and a pixel up of what is linear over the triangle: v / w and
 // 1 / w (gl_FragCoord.w) are linear over the picture, so that their differences are derivatives.
@@ -12,8 +15,12 @@ uniform sampler2D image;
 #define CHANGE_RIGHT(v) CHANGE(dFdx, v)
 #define CHANGE_UP(v) CHANGE(dFdy, v)
 
-// `right` and `up`: how `at` changes by a pixel.
+// `right` and `up`: how `at` changes by a pixel of the target.
 vec4 filtered(vec2 at, vec2 right, vec2 up) {
+#ifdef SUPERSAMPLED
+    right *= samplesAcross;
+    up *= samplesAcross;
+#endif
 #if defined(FILTER_ANISOTROPIC)
     return textureGrad(image, at, right, up);
 #elif defined(FILTER_MIPMAP)
@@ -22,6 +29,17 @@ vec4 filtered(vec2 at, vec2 right, vec2 up) {
     return textureLod(image, at, 0.5 * log2(max(dot(a, a), dot(b, b))));
 #else
     return texture(image, at);
+#endif
+}
+
+// The mesh's own coordinates, with the GL's derivatives.
+vec4 sampleMesh() {
+#if !defined(SUPERSAMPLED)
+    return texture(image, uv);
+#elif defined(FILTER_ANISOTROPIC)
+    return textureGrad(image, uv, samplesAcross * dFdx(uv), samplesAcross * dFdy(uv));
+#else
+    return texture(image, uv, log2(samplesAcross));
 #endif
 }
 

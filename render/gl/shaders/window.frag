@@ -10,7 +10,14 @@ void main() {
     for (int i = 0; i < RESOLVE; ++i) sum += texelFetch(drawn, ivec2(gl_FragCoord.xy), i);
     result = sum * (1.0 / RESOLVE);
 }
-#elif defined(SKYBOX)
+#else
+#ifdef SUPERSAMPLED
+uniform float samplesAcross;  // of a pixel of the image, whose level of detail all its samples have
+#define BIAS log2(samplesAcross)
+#else
+#define BIAS 0.0
+#endif
+#ifdef SKYBOX
 uniform samplerCube sky;
 uniform mat3 worldFromView;
 uniform vec2 tangents;  // of half the field of view, across and up
@@ -18,10 +25,11 @@ uniform vec2 tangents;  // of half the field of view, across and up
 void main() {
     vec3 ray = worldFromView * vec3(windowPosition * tangents, -1.0);
     // Cube maps are left-handed.
-    result = vec4(texture(sky, vec3(ray.xy, -ray.z)).rgb, 1.0);
+    result = vec4(texture(sky, vec3(ray.xy, -ray.z), BIAS).rgb, 1.0);
 }
 #else
 uniform sampler2D image;
 
-void main() { result = vec4(texture(image, windowPosition * 0.5 + 0.5).rgb, 1.0); }
+void main() { result = vec4(texture(image, windowPosition * 0.5 + 0.5, BIAS).rgb, 1.0); }
+#endif
 #endif

@@ -2,6 +2,7 @@
 #include "render/plan/passes.h"
 
 #include <catch2/catch.hpp>
+#include <set>
 
 #include "generator/registry.h"
 #include "render/plan/sampling.h"
@@ -59,12 +60,12 @@ TEST_CASE("the default frame is one pass") {
     REQUIRE(plan.passes.size() == 1);
     const render::Pass& pass = plan.passes[0];
     CHECK(pass.target.samples == 1);
-    CHECK_FALSE(pass.target.wide);
-    CHECK(pass.target.output == render::PassOutput::image);
+    CHECK(pass.target.scale == 1);
+    CHECK(pass.target.rows == plan.view.size.y);
+    CHECK(pass.target.output == render::PassOutput::mean);
     CHECK(pass.target.clearColor == glm::vec4(0, 0, 0, 1));
     CHECK(pass.state.depthTest);
     CHECK(pass.state.polygons == render::Polygons::filled);
-    CHECK_FALSE(pass.state.eachSample);
     CHECK(pass.clip == plan.view.clip);
     REQUIRE(pass.items.size() == 1);
     CHECK(pass.items[0].kind == PassItem::Kind::models);
@@ -87,29 +88,70 @@ TEST_CASE("lines come before models, a backdrop behind them, and nothing is clea
     CHECK(plan.passes[0].items[2].kind == PassItem::Kind::skybox);
 }
 
-TEST_CASE("more samples than the GL has at once are passes that differ in their place") {
+TEST_CASE("more samples than four are larger targets, and passes that differ in their place") {
     render::FrameStyle style;
-    for (const auto& [wanted, passes] : {std::pair{2, 1}, {4, 1}, {8, 2}, {16, 4}}) {
-        style.samples = wanted;
+    struct Case {
+        int wanted, scale, samples, passes;
+    };
+    for (const Case& one :
+         std::vector<Case>{{1, 1, 1, 1}, {2, 1, 4, 1}, {4, 1, 4, 1}, {8, 3, 1, 1}, {16, 2, 1, 4}}) {
+        style.samples = one.wanted;
         const FramePlan plan = composed(style);
-        CAPTURE(wanted);
-        REQUIRE(plan.passes.size() == static_cast<std::size_t>(passes));
-        for (int i = 0; i < passes; ++i) {
+        CAPTURE(one.wanted);
+        REQUIRE(plan.passes.size() == static_cast<std::size_t>(one.passes));
+        for (int i = 0; i < one.passes; ++i) {
             const render::Pass& pass = plan.passes[static_cast<std::size_t>(i)];
-            CHECK(pass.target.samples == 4);
-            CHECK(pass.target.wide == (passes > 1));
-            CHECK(pass.state.eachSample == (passes > 1));
-            CHECK((pass.target.output == render::PassOutput::mean) == (passes > 1));
-            CHECK(pass.clip == render::movedClip(plan.view, render::passOffset(i, passes)));
+            CHECK(pass.target.scale == one.scale);
+            CHECK(pass.target.samples == one.samples);
+            CHECK(pass.features.has(Feature::supersampled) == (one.scale > 1));
+            const glm::dvec2 offset = render::passOffset(i, {one.scale, one.samples, one.passes});
+            CHECK(pass.clip == render::movedClip(plan.view, offset));
             CHECK(pass.features == plan.passes[0].features);
         }
     }
-    render::GlFacts sixteen = support::fourSamples();
-    sixteen.samplePatterns.emplace_back(16);
-    CHECK(render::chooseSampling(4, sixteen).samples == 4);
-    CHECK(render::chooseSampling(8, sixteen).samples == 16);
-    CHECK(render::chooseSampling(16, sixteen).passes == 1);
-    CHECK(render::chooseSampling(8, {}).passes == 8);
+    // Without multisampling, and beside the largest target.
+    CHECK(render::chooseSampling(4, {}, 512).scale == 2);
+    render::GlFacts small;
+    small.maxTargetSide = 1024;
+    CHECK(render::chooseSampling(8, small, 512).passes == 2);
+    CHECK(render::chooseSampling(8, small, 1024).passes == 16);
+}
+
+TEST_CASE("samples of a pixel lie in its middle as a whole, few in one row or column") {
+    for (const int wanted : {2, 4, 8, 16}) {
+        const render::SamplePattern pattern = render::samplePattern(
+            render::chooseSampling(wanted, support::fourSamples(), 512), support::fourSamples());
+        CAPTURE(wanted);
+        CHECK(pattern.size() >= static_cast<std::size_t>(wanted));
+        glm::dvec2 sum(0.0);
+        std::set<double> columns, rows;
+        for (const glm::dvec2& at : pattern) {
+            CHECK(at.x > 0.0);
+            CHECK(at.x < 1.0);
+            sum += at - 0.5;
+            columns.insert(at.x);
+            rows.insert(at.y);
+        }
+        CHECK(glm::length(sum) < 1e-9);
+        CHECK(columns.size() >= (wanted == 8 ? 3U : static_cast<std::size_t>(wanted) / 2));
+        CHECK(rows.size() == columns.size());
+    }
+}
+
+TEST_CASE("a large target is drawn in bands of rows") {
+    render::FrameStyle style;
+    style.samples = 8;
+    FramePlan plan = frameOf(style);
+    plan.view.size = {4096, 4096};
+    render::composePasses(plan, support::fourSamples());
+    REQUIRE(plan.passes.size() > 1);
+    int row = 0;
+    for (const render::Pass& pass : plan.passes) {
+        CHECK(pass.target.firstRow == row);
+        CHECK(std::int64_t{9} * 4096 * pass.target.rows <= 32 << 20);
+        row += pass.target.rows;
+    }
+    CHECK(row == 4096);
 }
 
 TEST_CASE("a shader has what its model needs and no more") {

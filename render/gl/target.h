@@ -27,7 +27,7 @@ class Target {
         GLuint program = 0, emptyArray = 0;
     };
 
-    /// Bound, with `rect` of its window coordinates (x, y, width, height) as the viewport.
+    /// Binds it, with a viewport (x, y, width, height) in its pixels, which may reach beyond it.
     void bind(const glm::ivec4& viewport) const;
     /// Makes the picture of the samples, where there are samples.
     void resolve(const Resolver& resolver) const;

@@ -6,7 +6,7 @@
 namespace farol::render {
 
 /// Makes the passes of a frame from its style, with the batches and the features of its items: one
-/// pass, or several of which the mean is taken, and for large targets as many bands of rows.
+/// pass, or several that are averaged, and for large targets as many for each band of rows.
 void composePasses(FramePlan& plan, const GlFacts& gl);
 
 }  // namespace farol::render

@@ -6,9 +6,9 @@
 
 namespace farol::render {
 
-/// How an image's samples are taken: in targets `scale` times as wide and high as the image, by
-/// passes that each move it by a part of a pixel. `samples` are the GL's own of each pixel of such
-/// a target, which share one shading: more than one only at scale 1 and in one pass.
+/// How an image is sampled: in targets `scale` times as wide and high as the image, by `passes`
+/// that each move it by a part of a pixel. `samples` are the GL's own of a pixel of such a target,
+/// which share one shading: more than one only at scale 1 and in one pass.
 struct Sampling {
     int scale = 1, samples = 1, passes = 1;
 };
@@ -22,7 +22,7 @@ Sampling chooseSampling(int wanted, const GlFacts& gl, int side);
 /// row or column where their number allows.
 glm::dvec2 passOffset(int pass, const Sampling& sampling);
 
-/// All positions in a pixel that samples are taken at, over all passes.
+/// Positions of all samples in a pixel, over all passes.
 SamplePattern samplePattern(const Sampling& sampling, const GlFacts& gl);
 
 }  // namespace farol::render

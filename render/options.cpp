@@ -245,9 +245,11 @@ std::vector<OptionSpec> makeSpecs() {
         number("time", &O::timeS, -1e9, 1e9, "s", "moment of the animation; default 0"),
         word("shading", &O::shading, wordsOf(scene::kShadingWords),
              "how surfaces are drawn; default by what the scene holds"),
-        choice("aa", &O::samples, {"1", "2", "4", "8", "16"}, "samples",
-               "antialiasing, samples a pixel; 8 and 16 are shaded each; default by error, 4",
-               "2 and 4 share their shading; 8 and 16 hold outlines to 1/8 and 1/16 px."),
+        choice(
+            "aa", &O::samples, {"1", "2", "4", "8", "16"}, "samples",
+            "antialiasing: at least so many samples a pixel; default by error, 4",
+            "2 and 4 share their shading; of 8 (9 are drawn) and 16 each is shaded, and outlines "
+            "keep to 1/8 and 1/16 px."),
         word("filter", &O::filter, wordsOf(scene::kFilterWords), "texture filter; default mipmap"),
         number("error", &O::errorPx, 0.01, 64, "px",
                "tessellation on demand: greatest error; default 0.25",

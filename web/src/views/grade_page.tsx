@@ -5,6 +5,7 @@ import { gradesView, type Graded, type GradesView } from '../../../grade/report/
 import { csvOf, Grading, type Row } from '../grade/grading.ts';
 import { studentOf, subjectsOf } from '../grade/submissions.ts';
 import type { NamedFile } from '../scene/bundle.ts';
+import { classOf } from '../grade/zip.ts';
 import { chooseFiles, filesOf } from '../files.ts';
 import { Icon } from './icons.tsx';
 import { saveBlob } from './save.ts';
@@ -19,19 +20,21 @@ function takeReference(files: readonly NamedFile[]): void {
   grading.reference.value = subjects[0] ?? null;
 }
 
-function takeSubmissions(files: readonly NamedFile[]): void {
+async function takeSubmissions(files: readonly NamedFile[]): Promise<void> {
   const rubric = files.length === 1 && /\.json$/i.test(files[0]?.path ?? '') ? files[0] : undefined;
   if (rubric) {
     grading.rubric.value = { name: rubric.path, file: rubric.file };
     return;
   }
-  const subjects = subjectsOf(files);
+  const [only] = files;
+  const members = files.length === 1 && only && /\.zip$/i.test(only.path) ? await classOf(only.file) : null;
+  const subjects = members ?? subjectsOf(files);
   if (subjects.length === 0) return say('There is no scene or picture among these files.');
   grading.add(subjects);
 }
 
 function Drop({ kind, title, text, take, children }: {
-  kind: 'reference' | 'submissions'; title: string; text: string; take: (files: readonly NamedFile[]) => void; children: preact.ComponentChildren;
+  kind: 'reference' | 'submissions'; title: string; text: string; take: (files: readonly NamedFile[]) => void | Promise<void>; children: preact.ComponentChildren;
 }) {
   const pick = (folder: boolean): void => void chooseFiles(folder).then(take);
   return (

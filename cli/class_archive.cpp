@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "cli/messages.h"
+#include "cli/zip_writer.h"
 #include "core/error.h"
 #include "core/text.h"
 #include "scene/files/assets.h"
@@ -23,7 +24,7 @@ constexpr std::size_t kMaxDirectoryBytes = std::size_t{64} << 20U;
 constexpr std::string_view kLocal = "PK\3\4", kEntry = "PK\1\2", kEnd = "PK\5\6";
 constexpr std::size_t kLocalBytes = 30, kEntryBytes = 46, kEndBytes = 22;
 constexpr std::size_t kMaxComment = 65'535;
-constexpr std::uint16_t kSizesFollow = 1U << 3U, kUtf8 = 1U << 11U, kVersion = 20;
+constexpr std::uint16_t kEncrypted = 1;
 
 template <typename Number>
 Number numberAt(std::string_view bytes, std::size_t at) {
@@ -32,12 +33,6 @@ Number numberAt(std::string_view bytes, std::size_t at) {
         value = static_cast<Number>(
             value | (static_cast<Number>(static_cast<unsigned char>(bytes[at + i])) << (8 * i)));
     return value;
-}
-
-template <typename Number>
-void append(std::string& bytes, Number value) {
-    for (std::size_t i = 0; i < sizeof(Number); ++i)
-        bytes += static_cast<char>(static_cast<unsigned char>(value >> (8 * i)));
 }
 
 int openRegular(const std::string& path) {
@@ -95,10 +90,10 @@ ClassArchive::ClassArchive(const std::string& path) : path_(path), file_(openReg
 std::string ClassArchive::packed(const std::vector<std::size_t>& entries,
                                  const std::vector<std::string>& names,
                                  std::size_t maxBytes) const {
-    std::string out, directory;
+    std::string out;
+    ZipWriter zip([&](std::string_view bytes) { out += bytes; });
     for (std::size_t i = 0; i < entries.size(); ++i) {
         const Record& record = records_.at(entries[i]);
-        const std::string& name = names.at(i);
         if (record.packed > maxBytes || out.size() > maxBytes - record.packed)
             throw Error(message<"limit.bundle/submission">("max"_arg = maxBytes >> 20U),
                         {path_, 0, 0});
@@ -107,35 +102,13 @@ std::string ClassArchive::packed(const std::vector<std::size_t>& entries,
         const std::uint64_t data = std::uint64_t{record.offset} + kLocalBytes +
                                    numberAt<std::uint16_t>(head, 26) +
                                    numberAt<std::uint16_t>(head, 28);
-        const auto offset = static_cast<std::uint32_t>(out.size());
-        // Sizes stand in the header, and names are UTF-8.
-        std::string common;
-        append(common, static_cast<std::uint16_t>((record.flags & ~kSizesFollow) | kUtf8));
-        for (const std::uint16_t value : {record.method, record.time, record.date})
-            append(common, value);
-        for (const std::uint32_t value : {record.crc, record.packed, record.size})
-            append(common, value);
-        append(common, static_cast<std::uint16_t>(name.size()));
-        append(common, std::uint16_t{0});  // no extra field
-        out += kLocal;
-        append(out, kVersion);
-        out += common + name + readAt(data, record.packed);
-        directory += kEntry;
-        append(directory, record.madeBy);
-        append(directory, kVersion);
-        directory += common;
-        for (int zero = 0; zero < 3; ++zero) append(directory, std::uint16_t{0});
-        append(directory, record.attributes);
-        append(directory, offset);
-        directory += name;
+        if ((record.flags & kEncrypted) != 0)
+            throw Error(message<"bundle.entry/encrypted">("path"_arg = uncut(names.at(i))),
+                        {path_, 0, 0});
+        zip.add({names.at(i), record.madeBy, record.method, record.time, record.date, record.crc,
+                 record.size, record.attributes, readAt(data, record.packed)});
     }
-    const auto offset = static_cast<std::uint32_t>(out.size());
-    out += directory + std::string(kEnd);
-    append(out, std::uint32_t{0});  // one disk
-    for (int twice = 0; twice < 2; ++twice) append(out, static_cast<std::uint16_t>(entries.size()));
-    append(out, static_cast<std::uint32_t>(directory.size()));
-    append(out, offset);
-    append(out, std::uint16_t{0});
+    zip.finish();
     return out;
 }
 

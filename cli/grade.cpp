@@ -14,6 +14,7 @@
 #include "cli/command.h"
 #include "cli/files.h"
 #include "cli/grade_batch.h"
+#include "cli/grade_tables.h"
 #include "cli/messages.h"
 #include "grade/rubric/rubric.h"
 #include "worker/pool.h"
@@ -23,6 +24,8 @@ namespace {
 
 struct Flags {
     std::string reference, submissions, output, rubric, missing = "placeholder";
+    std::string overrides, groups, anonymous;
+    bool hasFeedback = false;
     int jobs = 0;
     double deadlineS = 60.0;
     std::size_t memoryMiB = 1024;
@@ -119,6 +122,23 @@ void printTable(const grade::ClassResult& all, const BatchTimes& times, int jobs
         times.readMs / each, times.drawMs / each, times.compareMs / each);
 }
 
+/// Reads what the teacher wrote beside the class, and returns the name of the table of overrides.
+std::string readTables(const Flags& flags, const std::vector<Submission>& submissions,
+                       BatchOptions& options) {
+    std::string overrides = flags.overrides, groups = flags.groups;
+    const std::string marks = readTable(overrides, flags.output + "/overrides.csv");
+    if (!overrides.empty()) options.overrides = {marks, overrides};
+    const std::string members = readTable(groups, flags.output + "/groups.csv");
+    if (!groups.empty()) options.groups = {members, groups};
+    if (flags.anonymous.empty()) return overrides;
+    std::error_code failed;
+    const auto isIn = std::filesystem::weakly_canonical(folderOf(flags.anonymous), failed);
+    if (isIn == std::filesystem::weakly_canonical(flags.output, failed))
+        throw UsageError(message<"usage/anonymous">("path"_arg = uncut(flags.anonymous)));
+    options.pseudonyms.emplace(flags.anonymous, submissions);
+    return overrides;
+}
+
 int run(const Flags& flags, Report& report) {
     if (flags.printRubric) {
         std::cout << grade::writeRubric(grade::defaultRubric()) << std::flush;
@@ -127,14 +147,13 @@ int run(const Flags& flags, Report& report) {
     if (flags.reference.empty() || flags.submissions.empty() || flags.output.empty())
         throw UsageError(message<"usage/grade">());
     BatchOptions options;
-    options.rubric = flags.rubric.empty()
-                         ? grade::defaultRubric()
-                         : grade::readRubric(readInput(flags.rubric), flags.rubric);
     render::PictureOptions picture;
     render::applyOption(picture, "missing", flags.missing);
     options.missing = picture.missing;
     std::vector<GradeTask> tasks = findTasks(flags.reference);
+    options.rubrics = readRubrics(flags.rubric, tasks);
     std::vector<Submission> submissions = findSubmissions(flags.submissions);
+    const std::string overridesFile = readTables(flags, submissions, options);
     options.resultsDir = flags.output + "/results";
     std::error_code failed;
     std::filesystem::create_directories(options.resultsDir, failed);
@@ -153,9 +172,16 @@ int run(const Flags& flags, Report& report) {
     const BatchTimes times = batch.run();
     const grade::ClassResult all = batch.result();
     writeReport(flags.output + "/report.html", all, grade::writeHtml);
+    writeReport(flags.output + "/class.html", all, grade::writeClassPage);
     writeReport(flags.output + "/grades.csv", all, grade::writeCsv);
+    writeReport(flags.output + "/criteria.csv", all, grade::writeCriteria);
     writeReport(flags.output + "/junit.xml", all, grade::writeJunit);
     writeReport(flags.output + "/report.json", all, grade::writeJson);
+    if (flags.hasFeedback) writeFeedback(flags.output + "/feedback.zip", all);
+    if (!options.pseudonyms)
+        for (const int line : options.overrides.unused(all))
+            report.add({diagnosticOf(Severity::warning, message<"grade.override-unused">(),
+                                     {overridesFile, line, 0})});
     if (!report.json()) {
         printTable(all, times, poolSettings.workers);
         return kDone;
@@ -187,7 +213,7 @@ void addGrade(CLI::App& root, Action& action) {
     const auto flags = std::make_shared<Flags>();
     command
         ->add_option("SUBMISSIONS", flags->submissions,
-                     "folder with a folder, .xml, .zip or .tar for each student")
+                     "folder with an entry for each student, or the .zip of the class")
         ->type_name("");
     command
         ->add_option("--reference", flags->reference,
@@ -195,7 +221,9 @@ void addGrade(CLI::App& root, Action& action) {
         ->type_name("REF");
     command->add_option("-o,--output", flags->output, "folder for the reports; a run goes on in it")
         ->type_name("DIR");
-    command->add_option("--rubric", flags->rubric, "a .json file; default: --print-rubric")
+    command
+        ->add_option("--rubric", flags->rubric,
+                     "a .json file, or a folder with TASK.json; default: --print-rubric")
         ->type_name("FILE");
     command
         ->add_option("--missing", flags->missing,
@@ -209,6 +237,20 @@ void addGrade(CLI::App& root, Action& action) {
     takesNumber(command->add_option("--worker-memory", flags->memoryMiB,
                                     "memory of a process, MiB; 0: no cap"),
                 0, 1 << 20);
+    command
+        ->add_option("--overrides", flags->overrides,
+                     "marks and comments by hand, .csv; default: overrides.csv in DIR")
+        ->type_name("FILE");
+    command
+        ->add_option("--groups", flags->groups,
+                     "who handed in together, .csv; default: groups.csv in DIR")
+        ->type_name("FILE");
+    command
+        ->add_option("--anonymous", flags->anonymous,
+                     "reports show pseudonyms; FILE keeps who is who, outside of DIR")
+        ->type_name("FILE");
+    command->add_flag("--feedback", flags->hasFeedback,
+                      "also writes feedback.zip, a page for each student, for Moodle");
     command->add_flag("--print-rubric", flags->printRubric, "writes the default rubric and ends");
     command->callback(
         [&action, flags] { action = [flags](Report& report) { return run(*flags, report); }; });

@@ -105,6 +105,7 @@ struct Batch::Task {
     grade::Subject reference;
     grade::Wanted wanted;
     std::string digest;
+    worker::PackedRubric rubric;
     std::vector<std::string> pictures;
 };
 
@@ -114,11 +115,10 @@ Batch::Batch(worker::Backend& backend, std::vector<Submission> submissions,
       submissions_(std::move(submissions)),
       names_(std::move(tasks)),
       options_(std::move(options)),
-      rubric_(worker::packRubric(options_.rubric)),
       entries_(submissions_.size() * names_.size()) {}
 
 std::string Batch::keyOf(const grade::Subject& subject, const Task& task) const {
-    return contentDigest(digestOf(subject) + task.wanted.task + task.digest + rubric_.json +
+    return contentDigest(digestOf(subject) + task.wanted.task + task.digest + task.rubric.json +
                          std::string(render::kMissingWords[options_.missing]) + backend_.version());
 }
 
@@ -130,13 +130,14 @@ BatchTimes Batch::run() {
         apart.push_back(std::filesystem::path(submissions_.front().path).parent_path());
     for (const GradeTask& one : names_) {
         auto task = std::make_shared<Task>();
+        task->rubric = worker::packRubric(options_.rubrics[tasks_.size()]);
         task->reference = readReference(one.path, apart);
         task->digest = digestOf(task->reference);
         task->wanted = {one.name, {}, grade::filesNamedIn(task->reference.job.xml)};
         for (const GradeTask& other : names_)
             if (other.name != one.name) task->wanted.others.push_back(other.name);
         // Asked for first: a reference that is at fault ends the run before it begins.
-        task->pictures = askForReference(backend_, {task->reference, rubric_}, one.path);
+        task->pictures = askForReference(backend_, {task->reference, task->rubric}, one.path);
         tasks_.push_back(std::move(task));
     }
     std::atomic<std::size_t> next{0}, done{0};
@@ -168,7 +169,7 @@ void Batch::gradeOne(std::size_t submission, std::size_t task) {
         job.submission = readSubmission(submissions_[submission], tasks_[task]->wanted);
         job.submission.job.options.missing = options_.missing;
         job.reference = tasks_[task]->reference;
-        job.rubric = rubric_;
+        job.rubric = tasks_[task]->rubric;
         const std::string file =
             options_.resultsDir + "/" + keyOf(job.submission, *tasks_[task]) + ".grade";
         if (grade::TaskGrade kept; isWholeInto(kept, file)) {
@@ -204,46 +205,69 @@ void Batch::gradeOne(std::size_t submission, std::size_t task) {
     }
 }
 
+grade::TaskResult Batch::loadTask(std::size_t submission, std::size_t task) const {
+    const Submission& who = submissions_[submission];
+    const Entry& entry = entries_[submission * names_.size() + task];
+    // What shows the student's name in a message or an excerpt does not show it either.
+    const auto shownAs = [&](const std::string& text) {
+        return options_.pseudonyms ? withoutName(text, who, options_.pseudonyms->of(who)) : text;
+    };
+    grade::TaskResult out;
+    out.task = names_[task].name;
+    if (grade::TaskGrade kept; entry.file.empty()) {
+        out.result = grade::TaskFailure{entry.code, shownAs(entry.failure)};
+    } else if (isWholeInto(kept, entry.file)) {
+        kept.json = shownAs(kept.json);
+        out.result = std::move(kept);
+    } else {
+        out.result = grade::TaskFailure{"grade.lost",
+                                        "result file is gone or damaged; run the command again"};
+    }
+    return out;
+}
+
 grade::SubmissionResult Batch::load(std::size_t submission) const {
     const Submission& who = submissions_[submission];
+    const grade::Rubric& main = options_.rubrics.front();
     grade::SubmissionResult out;
     out.id = who.id;
     out.name = who.name;
     out.number = who.number;
-    out.most = options_.rubric.points;
+    out.most = main.points;
     out.graded = false;
+    double share = 0.0, weights = 0.0;
     for (std::size_t t = 0; t < names_.size(); ++t) {
-        const Entry& entry = entries_[submission * names_.size() + t];
-        grade::TaskResult task;
-        task.task = names_[t].name;
-        grade::TaskGrade kept;
-        if (entry.file.empty()) {
-            task.result = grade::TaskFailure{entry.code, entry.failure};
-        } else if (isWholeInto(kept, entry.file)) {
-            const nlohmann::json grade = parseJson(kept.json, grade::kGradeJson);
-            out.points += grade.value("points", 0.0);
+        const grade::Rubric& rubric = options_.rubrics[t];
+        grade::TaskResult task = loadTask(submission, t);
+        options_.overrides.applyToTask(task, out, rubric.points, rubric.passMark);
+        weights += rubric.weight;
+        if (task.grade() != nullptr) {
+            const nlohmann::json grade = parseJson(task.grade()->json, grade::kGradeJson);
+            share += rubric.weight * grade.value("points", 0.0) / rubric.points;
             out.graded = out.graded || !grade.value("refused", false);
-            task.result = std::move(kept);
-        } else {
-            task.result = grade::TaskFailure{
-                "grade.lost", "result file is gone or damaged; run the command again"};
         }
         out.tasks.push_back(std::move(task));
     }
-    out.points = std::round(100.0 * out.points / static_cast<double>(names_.size())) / 100.0;
-    out.passed =
-        out.graded && out.points >= options_.rubric.points * options_.rubric.passMark / 100.0;
+    if (weights > 0.0) out.points = std::round(100.0 * main.points * share / weights) / 100.0;
+    out.passed = out.graded && out.points >= main.points * main.passMark / 100.0;
+    options_.overrides.applyToTotal(out, main.passMark);
+    if (options_.pseudonyms) {
+        out.id = options_.pseudonyms->of(who);
+        out.name = out.id;
+        out.number.clear();
+    }
     return out;
 }
 
 grade::ClassResult Batch::result() const {
     grade::ClassResult all;
-    all.title = options_.rubric.title;
+    all.title = options_.rubrics.front().title;
     all.count = submissions_.size();
     all.at = [this](std::size_t i) { return load(i); };
     for (const GradeTask& one : names_) all.tasks.push_back(one.name);
     for (const auto& task : tasks_) all.references.push_back(task->pictures);
-    all.rubric = rubric_.json;
+    all.rubric = tasks_.front()->rubric.json;
+    if (!options_.pseudonyms) all.groups = options_.groups;
     return all;
 }
 

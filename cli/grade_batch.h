@@ -4,10 +4,13 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "cli/pseudonyms.h"
 #include "cli/submissions.h"
+#include "grade/report/overrides.h"
 #include "grade/report/report.h"
 #include "grade/rubric/rubric.h"
 #include "worker/backend.h"
@@ -22,7 +25,11 @@ struct BatchTimes {
 };
 
 struct BatchOptions {
-    grade::Rubric rubric;
+    /// Of each task; the points and the pass mark of the first are the class's.
+    std::vector<grade::Rubric> rubrics;
+    grade::Overrides overrides;
+    grade::Groups groups;
+    std::optional<Pseudonyms> pseudonyms;
     std::string resultsDir;  ///< where each result is kept, so that a run can go on
     int jobs = 1;
     /// What a submission's missing or damaged file does; references must be whole.
@@ -43,6 +50,7 @@ class Batch {
   private:
     struct Task;
     std::string keyOf(const grade::Subject& subject, const Task& task) const;
+    grade::TaskResult loadTask(std::size_t submission, std::size_t task) const;
     void gradeOne(std::size_t submission, std::size_t task);
     bool failed();
     grade::SubmissionResult load(std::size_t submission) const;
@@ -51,7 +59,6 @@ class Batch {
     std::vector<Submission> submissions_;
     std::vector<GradeTask> names_;
     BatchOptions options_;
-    const worker::PackedRubric rubric_;
     std::vector<std::shared_ptr<Task>> tasks_;
     struct Entry {
         std::string file;  ///< of the result; empty: failed

@@ -16,11 +16,18 @@ inline constexpr MessageRow kCliMessages[] = {
     {"bundle.damaged/class",
      "cannot read this file as a zip; give the folder of the submissions, or the .zip that Moodle "
      "sends"},
+    {"bundle.entry/encrypted",
+     "\"{path}\" in the archive is encrypted; pack the files without a password",
+     {"scene.xml"}},
     {"grade.empty-file/reference", "the reference is empty (0 bytes); expected a scene"},
     {"grade.no-scene/reference",
      "the reference has no .xml file and no image; expected at least one"},
     {"grade.no-submissions",
      "nothing to grade in this folder or .zip; expected an entry a student"},
+    {"grade.override-unused",
+     "the student of this row is none of the class; write the name of the submission, the full "
+     "name "
+     "or the identifier"},
     {"grade.reference/deadline",
      "the reference takes longer than --deadline; raise it or simplify the reference"},
     {"grade.reference/process",
@@ -46,6 +53,9 @@ inline constexpr MessageRow kCliMessages[] = {
     {"service.unready",
      "{url} is not ready: {reason}",
      {"http://127.0.0.1:8080", "connection refused"}},
+    {"usage/anonymous",
+     "the key file \"{path}\" is in the report's folder; give a path outside of it",
+     {"report/key.csv"}},
     {"usage/arguments",
      "{reason}; {command} --help lists the options",
      {"--width requires an argument", "farol render"}},

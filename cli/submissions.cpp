@@ -53,7 +53,8 @@ bool isFolder(const fs::path& path) { return typeOf(path) == fs::file_type::dire
 
 /// "Name_12345_assignsubmission_file_" and what follows.
 const std::regex& moodleName() {
-    static const std::regex kMoodle("^((.{1,200})_([0-9]{1,18})_assignsubmission_[a-z]+_)(.*)$");
+    static const std::regex kMoodle(
+        "^((.{1,200})_([0-9]{1,18})_assignsubmission_[a-z]+(?:_|$))(.*)$");
     return kMoodle;
 }
 

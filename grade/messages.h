@@ -22,6 +22,11 @@ inline constexpr MessageRow kGradeMessages[] = {
      "a .{ending} file is not a scene; hand in the .xml file, alone or in a .zip with its files",
      {"docx"}},
     {"grade.no-scene/task", "it holds nothing that has the name of \"{task}\"", {"test_4_1"}},
+    {"grade.table/column",
+     "has no column \"{column}\"; expected the columns {expected}",
+     {"mark", "student, mark, comment"}},
+    {"grade.table/mark", "\"{value}\" is no mark; expected a number of 0 or more", {"good"}},
+    {"grade.table/rows", "has more than {max} rows; give a table of one class", {"100000"}},
     {"grade.which-scene",
      "it holds {count} .xml files and none is clearly meant: {names}; hand in one of them, or call "
      "it scene.xml",

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <utility>
@@ -10,29 +10,28 @@
 
 #include "core/base64.h"
 #include "core/bounded_json.h"
-#include "core/embedded.h"
 #include "core/text.h"
+#include "grade/report/csv.h"
+#include "grade/report/page_files.h"
+#include "grade/report/text.h"
 #include "grade/rubric/grader.h"
-
-namespace farol {
-std::span<const EmbeddedFile> reportFiles();  ///< page.html; page.* and view.* as css and js
-}
 
 namespace farol::grade {
 namespace {
 
 using nlohmann::ordered_json;
 
-std::string number(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.2f", value);
-    return text;
-}
-
 /// Null where the task was not graded.
 ordered_json gradeOf(const TaskResult& task) {
     const TaskGrade* grade = task.grade();
     return grade == nullptr ? ordered_json() : parseOrderedJson(grade->json, kGradeJson);
+}
+
+/// The class page alone compares submissions.
+ordered_json withoutTraits(ordered_json grade) {
+    grade.erase("traits");
+    grade.erase("document");
+    return grade;
 }
 
 ordered_json toJson(const SubmissionResult& one) {
@@ -42,6 +41,8 @@ ordered_json toJson(const SubmissionResult& one) {
     out["most"] = one.most;
     out["passed"] = one.passed;
     out["graded"] = one.graded;
+    if (one.isOverridden) out["overridden"] = true;
+    if (!one.comments.empty()) out["comments"] = one.comments;
     out["tasks"] = ordered_json::array();
     for (const TaskResult& task : one.tasks) {
         ordered_json entry;
@@ -49,7 +50,7 @@ ordered_json toJson(const SubmissionResult& one) {
         if (const TaskFailure* failure = task.failure())
             entry["failure"] = {{"code", failure->code}, {"message", failure->message}};
         else
-            entry["grade"] = gradeOf(task);
+            entry["grade"] = withoutTraits(gradeOf(task));
         out["tasks"].push_back(std::move(entry));
     }
     return out;
@@ -65,65 +66,6 @@ std::string forScript(std::string json) {
             out += c;
     }
     return out;
-}
-
-/// For XML 1.0 text and attributes: a character that it cannot hold is left out, or U+FFFD where it
-/// is no UTF-8.
-std::string forXml(const std::string& text) {
-    std::string out;
-    const std::string valid = toUtf8(text);
-    for (std::size_t i = 0; i < valid.size(); ++i) {
-        const char c = valid[i];
-        const bool isNoCharacter =
-            valid.compare(i, 3, "\xEF\xBF\xBE") == 0 || valid.compare(i, 3, "\xEF\xBF\xBF") == 0;
-        if (isNoCharacter) {
-            i += 2;
-            continue;
-        }
-        switch (c) {
-            case '<':
-                out += "&lt;";
-                break;
-            case '>':
-                out += "&gt;";
-                break;
-            case '&':
-                out += "&amp;";
-                break;
-            case '"':
-                out += "&quot;";
-                break;
-            case '\n':
-                out += "&#10;";  // an attribute would make it a blank
-                break;
-            case '\t':
-                out += "&#9;";
-                break;
-            default:
-                if (static_cast<unsigned char>(c) >= 0x20) out += c;
-        }
-    }
-    return out;
-}
-
-/// Whether a spreadsheet would read the field as a formula (also by a full-width sign).
-bool isFormula(const std::string& field) {
-    for (const char* start : {"=", "+", "-", "@", "\t", "\n", "\xEF\xBC\x9D", "\xEF\xBC\x8B",
-                              "\xEF\xBC\x8D", "\xEF\xBC\xA0"})
-        if (field.starts_with(start)) return true;
-    return false;
-}
-
-/// A quoted field (RFC 4180) of UTF-8 without control characters but for tab and line feed.
-std::string forCsv(const std::string& text) {
-    std::string field = toUtf8(text);
-    std::erase_if(field, [](char c) {
-        return (static_cast<unsigned char>(c) < 0x20 && c != '\t' && c != '\n') || c == 0x7F;
-    });
-    if (isFormula(field)) field.insert(field.begin(), '\'');
-    std::string out = "\"";
-    for (const char c : field) out += c == '"' ? std::string("\"\"") : std::string(1, c);
-    return out + "\"";
 }
 
 /// " (line 3)", " (lines 3, 5)", " (lines 3, 5, 7 and 4 more)"; "" where there is none.
@@ -142,10 +84,26 @@ bool isNotGraded(const ordered_json& grade) {
     return grade.is_object() && grade.value("refused", false);
 }
 
+/// Points by the measure of each criterion.
+std::map<std::string, double> criteriaOf(const TaskResult& task) {
+    std::map<std::string, double> points;
+    const ordered_json grade = gradeOf(task);
+    if (grade.is_object())
+        for (const auto& criterion : grade.value("criteria", ordered_json::array()))
+            points[criterion.value("measure", "")] = criterion.value("points", 0.0);
+    return points;
+}
+
+std::string identityFields(const Member& member) {
+    return forCsv(member.number.empty() ? "" : "Participant " + member.number) + "," +
+           forCsv(member.name);
+}
+
 /// The text for a student: each loss, then each finding.
 std::string feedback(const SubmissionResult& one) {
     std::string out;
     const auto line = [&](const std::string& text) { out += (out.empty() ? "" : "\n") + text; };
+    for (const std::string& comment : one.comments) line(comment);
     for (const TaskResult& task : one.tasks) {
         const std::string prefix = task.task.empty() ? "" : task.task + ": ";
         if (const TaskFailure* failure = task.failure()) {
@@ -153,6 +111,12 @@ std::string feedback(const SubmissionResult& one) {
             continue;
         }
         const ordered_json grade = gradeOf(task);
+        for (const auto& entry : grade.value("overrides", ordered_json::array())) {
+            const std::string criterion = entry.value("criterion", "");
+            if (entry.contains("comment"))
+                line(prefix + (criterion.empty() ? "" : criterion + ": ") +
+                     entry.value("comment", ""));
+        }
         // Errors of the document follow below.
         if (grade.contains("reason") && grade.value("diagnostics", ordered_json::array()).empty())
             line(prefix + "not graded: " + grade["reason"].value("message", ""));
@@ -160,7 +124,7 @@ std::string feedback(const SubmissionResult& one) {
             const double points = finding.value("points", 0.0);
             const bool isMissing = finding.value("code", "").ends_with(".missing");
             if (points > 0.0)
-                line(prefix + finding.value("message", "") + " (-" + number(points) + ")");
+                line(prefix + finding.value("message", "") + " (-" + twoDigits(points) + ")");
             else if (isMissing)
                 line(prefix + finding.value("message", ""));
         }
@@ -168,8 +132,8 @@ std::string feedback(const SubmissionResult& one) {
             grade.value("unexplained", ordered_json::object()).value("points", 0.0);
         if (unexplained > 0.0)
             line(prefix + "unexplained: the pictures differ for a reason that was not found (-" +
-                 number(unexplained) + ")");
-        // An error in many places is reported once, with its lines.
+                 twoDigits(unexplained) + ")");
+        // What is wrong in many places is listed once, with its lines.
         std::vector<std::pair<std::string, std::vector<int>>> told;
         for (const auto& diagnostic : grade.value("diagnostics", ordered_json::array())) {
             if (diagnostic.value("severity", "") != "error" && !(grade.value("penalty", 0.0) > 0.0))
@@ -190,12 +154,6 @@ std::string feedback(const SubmissionResult& one) {
     return out;
 }
 
-std::string_view fileOf(const char* name) {
-    for (const EmbeddedFile& file : reportFiles())
-        if (file.name == name) return file.bytes;
-    return {};
-}
-
 }  // namespace
 
 void writeJson(std::ostream& out, const ClassResult& all) {
@@ -214,13 +172,54 @@ void writeCsv(std::ostream& out, const ClassResult& all) {
            "Feedback comments\r\n";
     for (std::size_t i = 0; i < all.count; ++i) {
         const SubmissionResult one = all.at(i);
-        out << forCsv(one.number.empty() ? "" : "Participant " + one.number) << ","
-            << forCsv(one.name) << "," << (one.graded ? number(one.points) : "") << ","
-            << number(one.most) << ",,"
-            << (!one.graded  ? ""
-                : one.passed ? "yes"
-                             : "no")
-            << "," << forCsv(one.id) << "," << forCsv(feedback(one)) << "\r\n";
+        const std::string comments = forCsv(feedback(one));
+        for (const Member& member : all.groups.membersOf(one.id, one.name, one.number))
+            out << identityFields(member) << "," << (one.graded ? twoDigits(one.points) : "") << ","
+                << twoDigits(one.most) << ",,"
+                << (!one.graded  ? ""
+                    : one.passed ? "yes"
+                                 : "no")
+                << "," << forCsv(one.id) << "," << comments << "\r\n";
+    }
+}
+
+void writeCriteria(std::ostream& out, const ClassResult& all) {
+    // Criteria as they first appear: tasks may have rubrics of their own.
+    std::vector<std::vector<std::string>> criteria(all.tasks.size());
+    for (std::size_t i = 0; i < all.count; ++i) {
+        const SubmissionResult one = all.at(i);
+        for (std::size_t t = 0; t < one.tasks.size() && t < criteria.size(); ++t)
+            for (const auto& [measure, points] : criteriaOf(one.tasks[t]))
+                if (std::find(criteria[t].begin(), criteria[t].end(), measure) == criteria[t].end())
+                    criteria[t].push_back(measure);
+    }
+    out << "Identifier,Full name,Submission,Grade,By hand";
+    for (std::size_t t = 0; t < criteria.size(); ++t) {
+        const std::string task = all.tasks[t].empty() ? "" : all.tasks[t] + ": ";
+        if (!task.empty()) out << "," << forCsv(all.tasks[t]);
+        for (const std::string& measure : criteria[t]) out << "," << forCsv(task + measure);
+    }
+    out << "\r\n";
+    for (std::size_t i = 0; i < all.count; ++i) {
+        const SubmissionResult one = all.at(i);
+        std::string fields;
+        bool isByHand = one.isOverridden;
+        for (std::size_t t = 0; t < criteria.size(); ++t) {
+            const ordered_json grade = gradeOf(one.tasks[t]);
+            isByHand = isByHand || grade.contains("overrides");
+            const bool hasMark = grade.is_object() && !isNotGraded(grade);
+            if (!all.tasks[t].empty())
+                fields += "," + (hasMark ? twoDigits(grade.value("points", 0.0)) : "");
+            const auto points = criteriaOf(one.tasks[t]);
+            for (const std::string& measure : criteria[t]) {
+                const auto found = points.find(measure);
+                fields += "," + (hasMark && found != points.end() ? twoDigits(found->second) : "");
+            }
+        }
+        for (const Member& member : all.groups.membersOf(one.id, one.name, one.number))
+            out << identityFields(member) << "," << forCsv(one.id) << ","
+                << (one.graded ? twoDigits(one.points) : "") << "," << (isByHand ? "yes" : "")
+                << fields << "\r\n";
     }
 }
 
@@ -241,25 +240,25 @@ void writeJunit(std::ostream& out, const ClassResult& all) {
         }
     out << "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites tests=\"" << tests
         << "\" failures=\"" << failures << "\" errors=\"" << errors << "\">\n<testsuite name=\""
-        << forXml(all.title) << "\" tests=\"" << tests << "\" failures=\"" << failures
+        << forMarkup(all.title) << "\" tests=\"" << tests << "\" failures=\"" << failures
         << "\" errors=\"" << errors << "\">\n";
     for (std::size_t i = 0; i < all.count; ++i) {
         const SubmissionResult one = all.at(i);
         for (const TaskResult& task : one.tasks) {
             const ordered_json grade = gradeOf(task);
-            out << "<testcase classname=\"" << forXml(one.id) << "\" name=\""
-                << forXml(task.task.empty() ? "grade" : task.task) << "\">";
+            out << "<testcase classname=\"" << forMarkup(one.id) << "\" name=\""
+                << forMarkup(task.task.empty() ? "grade" : task.task) << "\">";
             if (const TaskFailure* failure = task.failure())
-                out << "<error type=\"" << forXml(failure->code) << "\" message=\""
-                    << forXml(failure->message) << "\"/>";
+                out << "<error type=\"" << forMarkup(failure->code) << "\" message=\""
+                    << forMarkup(failure->message) << "\"/>";
             else if (isNotGraded(grade))
-                out << "<error type=\"grade.refused\" message=\"" << forXml(feedback(one))
+                out << "<error type=\"grade.refused\" message=\"" << forMarkup(feedback(one))
                     << "\"/>";
             else if (failed(task))
-                out << "<failure message=\"" << number(grade.value("points", 0.0)) << " of "
-                    << number(grade.value("most", 0.0)) << " points\">" << forXml(feedback(one))
-                    << "</failure>";
-            out << "<system-out>" << number(grade.is_object() ? grade.value("points", 0.0) : 0.0)
+                out << "<failure message=\"" << twoDigits(grade.value("points", 0.0)) << " of "
+                    << twoDigits(grade.value("most", 0.0)) << " points\">"
+                    << forMarkup(feedback(one)) << "</failure>";
+            out << "<system-out>" << twoDigits(grade.is_object() ? grade.value("points", 0.0) : 0.0)
                 << " points</system-out></testcase>\n";
         }
     }
@@ -267,7 +266,7 @@ void writeJunit(std::ostream& out, const ClassResult& all) {
 }
 
 void writeHtml(std::ostream& out, const ClassResult& all) {
-    const std::string_view page = fileOf("page.html");
+    const std::string_view page = pageFile("page.html");
     const auto put = [&](std::string_view text) { out << text; };
     const auto part = [&](std::string_view mark, std::size_t from) {
         const std::size_t at = page.find(mark, from);
@@ -275,8 +274,8 @@ void writeHtml(std::ostream& out, const ClassResult& all) {
         return at == std::string_view::npos ? page.size() : at + mark.size();
     };
     std::size_t at = part("/*STYLE*/", 0);
-    put(fileOf("page.css"));
-    put(fileOf("view.css"));
+    put(pageFile("page.css"));
+    put(pageFile("view.css"));
     at = part("<!--DATA-->", at);
     put("<script type=\"application/json\" id=\"class\">");
     put(forScript(dumpJson(ordered_json{{"title", all.title}, {"tasks", all.tasks}})));
@@ -303,8 +302,8 @@ void writeHtml(std::ostream& out, const ClassResult& all) {
         }
     }
     at = part("/*SCRIPT*/", at);
-    put(fileOf("view.js"));
-    put(fileOf("page.js"));
+    put(pageFile("view.js"));
+    put(pageFile("page.js"));
     put(page.substr(at));
 }
 

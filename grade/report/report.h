@@ -6,6 +6,8 @@
 #include <variant>
 #include <vector>
 
+#include "grade/report/groups.h"
+
 /// A class's results as files: a page to read, a table for the grade book, JUnit for CI services,
 /// JSON for everything else. They hold what the submissions hold and nothing of the run: the same
 /// class gives the same bytes.
@@ -39,7 +41,9 @@ struct SubmissionResult {
     double points = 0, most = 0;
     bool passed = false;
     std::vector<TaskResult> tasks;
-    bool graded = true;  ///< false: no task has a mark, and neither has the submission
+    bool graded = true;         ///< false: no task has a mark, and neither has the submission
+    bool isOverridden = false;  ///< the points are the teacher's
+    std::vector<std::string> comments = {};  ///< the teacher's, of the whole
 };
 
 /// The class: results are asked for one after the other, so that all need not be in memory.
@@ -51,12 +55,18 @@ struct ClassResult {
     /// JPEG of the reference, by task and view.
     std::vector<std::vector<std::string>> references;
     std::string rubric;  ///< JSON
+    Groups groups = {};
 };
 
 void writeHtml(std::ostream& out, const ClassResult& all);
+/// A page about the class: mistakes by how often they were made, a contact sheet, and pairs of
+/// submissions that are alike, with both documents.
+void writeClassPage(std::ostream& out, const ClassResult& all);
 /// Moodle's offline grading worksheet and some columns more. A field that a spreadsheet would take
 /// for a formula starts with an apostrophe.
 void writeCsv(std::ostream& out, const ClassResult& all);
+/// A row a student, a column for each task and each criterion of it; empty where there is no mark.
+void writeCriteria(std::ostream& out, const ClassResult& all);
 void writeJunit(std::ostream& out, const ClassResult& all);
 void writeJson(std::ostream& out, const ClassResult& all);
 

@@ -112,6 +112,13 @@ std::string toJson(const Grade& grade) {
         out["diagnostics"].push_back(std::move(entry));
     }
     out["views"] = viewsOf(grade);
+    if (!grade.document.empty()) {
+        out["traits"] = {{"causes", grade.traits.causes},
+                         {"places", grade.traits.places},
+                         {"comments", grade.traits.comments},
+                         {"runs", grade.traits.runs}};
+        out["document"] = grade.document;
+    }
     return dumpJson(out);
 }
 

@@ -6,6 +6,7 @@
 #include "core/digest.h"
 #include "core/lru_cache.h"
 #include "core/stopwatch.h"
+#include "core/text.h"
 #include "grade/images/client_area.h"
 #include "grade/images/compare.h"
 #include "grade/images/comparison_cost.h"
@@ -144,6 +145,10 @@ struct Grader::State {
         if (lent) append(grade.diagnostics, lent->notes(prepared->scene));
         grade.times.readMs += watch.lapMs();
         diagnosis = diagnose(*reference.scene, *prepared, reference.timesS, meshes);
+        grade.traits =
+            traitsOf(diagnosis, reference.scene->outline, submission.job.xml, reference.job.xml);
+        constexpr std::size_t kMaxDocument = 20'000;  // each byte may become three
+        grade.document = toUtf8(submission.job.xml.substr(0, kMaxDocument));
         grade.times.compareMs += watch.lapMs();
         const FrameParts parts = partsFor(rubric);
         std::vector<image::Image> handedIn;

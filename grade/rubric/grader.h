@@ -10,6 +10,7 @@
 #include "grade/rubric/rubric.h"
 #include "grade/rubric/severity.h"
 #include "grade/rubric/subject.h"
+#include "grade/rubric/traits.h"
 #include "render/renderer.h"
 
 namespace farol::grade {
@@ -75,6 +76,8 @@ struct Grade {
     Diagnostics diagnostics;
     std::vector<std::string> excerpts;  ///< the lines at each diagnostic's place, or ""
     std::vector<ViewGrade> views;
+    Traits traits;         ///< of a scene
+    std::string document;  ///< its text in UTF-8, at most 60,000 bytes, to be shown
     GradeTimes times;
 };
 

@@ -100,6 +100,7 @@ void describe(Form& form, Rubric& rubric) {
     form.comment("$schema");  // editors find the schema by it
     form.text("title", rubric.title);
     form.number("points", rubric.points, 0.01, 10'000, "Of a perfect submission.");
+    form.number("weight", rubric.weight, 0, 1000, "Of the task among those of a class.");
     form.number("passMark", rubric.passMark, 0, 100, "Per cent of the points.");
     form.number("strictness", rubric.strictness, 0.1, 10, "Times every loss.");
     form.object("picture", [&](Form& picture) { describePicture(picture, rubric); });

@@ -39,6 +39,7 @@ inline constexpr EnumWords<Reveal, Reveal::values> kRevealWords{"words", "values
 struct Rubric {
     std::string title = "Rubric";
     double points = 100.0;    ///< of a perfect submission
+    double weight = 1.0;      ///< of the task among those of a class, 0..1000
     double passMark = 50.0;   ///< per cent of the points
     double strictness = 1.0;  ///< times every loss
     std::optional<int> width, height;

@@ -23,7 +23,7 @@ function subjectOf(name: string, files: readonly NamedFile[]): Subject {
 
 /** Who handed it in, by Moodle's names of folders and files: `Name_id_assignsubmission_file_`. */
 export function studentOf(name: string): { name: string; identifier: string } {
-  const found = /^(.{1,200})_([0-9]{1,18})_assignsubmission_[a-z]+_/.exec(name);
+  const found = /^(.{1,200})_([0-9]{1,18})_assignsubmission_[a-z]+(?:_|$)/.exec(name);
   return found ? { name: found[1] as string, identifier: `Participant ${found[2]}` } : { name, identifier: '' };
 }
 

@@ -69,7 +69,7 @@ async function repacked(zip: Blob, entries: readonly Entry[]): Promise<Blob> {
   return new Blob([...parts, ...directory, end.buffer], { type: 'application/zip' });
 }
 
-const moodle = /^(.{1,200}_[0-9]{1,18}_assignsubmission_[a-z]+_)/;
+const moodle = /^(.{1,200}_[0-9]{1,18}_assignsubmission_[a-z]+(?:_|$))/;
 
 /** The submissions of a class in one zip, each with a zip of its files; null: it is not the zip of a class. */
 export async function classOf(zip: Blob): Promise<{ name: string; file: Blob; fileName: string }[] | null> {

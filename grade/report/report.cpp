@@ -134,17 +134,17 @@ std::string feedback(const SubmissionResult& one) {
             line(prefix + "unexplained: the pictures differ for a reason that was not found (-" +
                  twoDigits(unexplained) + ")");
         // What is wrong in many places is listed once, with its lines.
-        std::vector<std::pair<std::string, std::vector<int>>> told;
+        std::vector<std::pair<std::string, std::vector<int>>> errors;
         for (const auto& diagnostic : grade.value("diagnostics", ordered_json::array())) {
             if (diagnostic.value("severity", "") != "error" && !(grade.value("penalty", 0.0) > 0.0))
                 continue;
             const std::string message = diagnostic.value("message", "");
-            auto found = std::find_if(told.begin(), told.end(),
+            auto found = std::find_if(errors.begin(), errors.end(),
                                       [&](const auto& entry) { return entry.first == message; });
-            if (found == told.end()) found = told.insert(told.end(), {message, {}});
+            if (found == errors.end()) found = errors.insert(errors.end(), {message, {}});
             if (diagnostic.contains("line")) found->second.push_back(diagnostic.value("line", 0));
         }
-        for (const auto& [message, lines] : told) line(prefix + message + linesText(lines));
+        for (const auto& [message, lines] : errors) line(prefix + message + linesText(lines));
         for (const auto& criterion : grade.value("criteria", ordered_json::array()))
             if (criterion.contains("measured") &&
                 criterion.value("points", 0.0) < criterion.value("most", 0.0) &&

@@ -26,7 +26,7 @@ Measurement flipOf(FramePair& pair) {
     const auto& prepared = pair.reference().flip;
     const Plane seen = prepared ? flip(*prepared, mine, differing(theirs, mine))
                                 : flip(FloatImage(theirs), FloatImage(mine));
-    const Summary summary = summarize(seen, pair.content());
+    const Summary summary = summarize(seen, both(pair.content(), pair.counted()));
     return {summary.mean, {summary.mean, summary.p95}};
 }
 

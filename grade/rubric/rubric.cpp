@@ -84,7 +84,8 @@ void describeCriterion(Form& form, Criterion& criterion) {
         form.number("tolerance", criterion.tolerance, 0, 1, about.c_str());
         form.number("limit", criterion.limit, 0, 1,
                     "From this on it costs all of the criterion. Above tolerance.");
-        form.require(criterion.tolerance < criterion.limit, "tolerance", "is not below its limit");
+        form.template require<"rubric.range/tolerance">(criterion.tolerance < criterion.limit,
+                                                        "tolerance");
     }
     if (metric.causes() != nullptr || isSchema) {
         const std::string about =
@@ -122,8 +123,8 @@ void describe(Form& form, Rubric& rubric) {
               [&](Form& each, Criterion& criterion, std::size_t at) {
                   describeCriterion(each, criterion);
                   for (std::size_t i = 0; i < at; ++i)
-                      each.require(rubric.criteria[i].metric != criterion.metric, "measure",
-                                   "is there twice");
+                      each.template require<"rubric.range/twice">(
+                          rubric.criteria[i].metric != criterion.metric, "measure");
               });
     form.object("penalties", [&](Form& penalties) {
         penalties.number("warning", rubric.perWarning, 0, 10'000, "Points for each warning.");
@@ -152,8 +153,7 @@ Rubric readRubric(const std::string& text, const std::string& name) {
     try {
         document = parseJson(text, kRubricJson);
     } catch (const JsonError& error) {
-        throw Error("rubric.json", "the rubric cannot be read: " + shown(std::string(error.what())),
-                    {name, 0, 0});
+        throw Error(message<"rubric.json">("reason"_arg = std::string(error.what())), {name, 0, 0});
     }
     Rubric rubric = defaultRubric();
     rubric.title = "Rubric";
@@ -162,7 +162,7 @@ Rubric readRubric(const std::string& text, const std::string& name) {
     reader.end();
     double weights = 0.0;
     for (const Criterion& one : rubric.criteria) weights += one.weight;
-    reader.require(weights > 0.0, "criteria", "weigh nothing");
+    reader.require<"rubric.range/weights">(weights > 0.0, "criteria");
     return rubric;
 }
 

@@ -12,7 +12,7 @@ ordered_json bound(double value) {
 
 RubricReader::RubricReader(const json& value, std::string path, const std::string& file)
     : value_(value), path_(std::move(path)), file_(file) {
-    if (!value.is_object()) fail("rubric.type", path_, "takes an object");
+    if (!value.is_object()) fail<"rubric.type/object">(path_);
 }
 
 bool RubricReader::has(const std::string& key) {
@@ -33,24 +33,24 @@ void RubricReader::integer(const std::string& key, int& out, int least, int most
 
 void RubricReader::integer(const std::string& key, std::optional<int>& out, int least, int most) {
     if (!has(key)) return;
-    if (!value_.at(key).is_number_integer()) fail("rubric.type", at(key), "takes an integer");
+    if (!value_.at(key).is_number_integer()) fail<"rubric.type/integer">(at(key));
     out = static_cast<int>(asNumber(value_.at(key), at(key), least, most));
 }
 
 void RubricReader::samples(const std::string& key, int& out, int most, const char*) {
     integer(key, out, 1, most);
-    require((out & (out - 1)) == 0, key, "takes 1, 2, 4, 8 or 16");
+    require<"rubric.range/samples">((out & (out - 1)) == 0, key);
 }
 
 void RubricReader::text(const std::string& key, std::string& out) {
     if (!has(key)) return;
-    if (!value_.at(key).is_string()) fail("rubric.type", at(key), "takes a string");
+    if (!value_.at(key).is_string()) fail<"rubric.type/text">(at(key));
     out = value_.at(key).get<std::string>().substr(0, kMaxRubricText);
 }
 
 void RubricReader::flag(const std::string& key, bool& out, const char*) {
     if (!has(key)) return;
-    if (!value_.at(key).is_boolean()) fail("rubric.type", at(key), "takes true or false");
+    if (!value_.at(key).is_boolean()) fail<"rubric.type/flag">(at(key));
     out = value_.at(key).get<bool>();
 }
 
@@ -60,14 +60,14 @@ std::size_t RubricReader::place(const std::string& key,
     text(key, given);
     const auto found = std::find(words.begin(), words.end(), given);
     if (found == words.end())
-        fail("rubric.range", at(key),
-             "is " + farol::quoted(given) + "; takes one of " + joined(words, ", "));
+        fail<"rubric.range/word">(at(key), "value"_arg = given,
+                                  "known"_arg = uncut(joined(words, ", ")));
     return static_cast<std::size_t>(found - words.begin());
 }
 
 std::size_t RubricReader::requiredWord(const std::string& key, std::size_t,
                                        const std::vector<std::string_view>& words) {
-    if (!has(key)) fail("rubric.type", path_, "lacks its " + key);
+    if (!has(key)) fail<"rubric.type/missing">(path_, "key"_arg = key);
     return place(key, words);
 }
 
@@ -84,41 +84,36 @@ void RubricReader::numbersByKey(const std::string& key, std::map<std::string, do
                                 double least, double most, const char*) {
     constexpr std::size_t kMaxKey = 80;
     if (!has(key)) return;
-    if (!value_.at(key).is_object()) fail("rubric.type", at(key), "takes an object");
+    if (!value_.at(key).is_object()) fail<"rubric.type/object">(at(key));
     for (const auto& [name, value] : value_.at(key).items())
         out[name.substr(0, kMaxKey)] = asNumber(value, at(key) + "." + name, least, most);
 }
 
 double RubricReader::asNumber(const json& value, const std::string& path, double least,
                               double most) const {
-    if (!value.is_number()) fail("rubric.type", path, "takes a number");
+    if (!value.is_number()) fail<"rubric.type/number">(path);
     const double number = value.get<double>();
     if (!(number >= least && number <= most))
-        fail("rubric.range", path,
-             "is " + value.dump() + "; takes " + json(least).dump() + " to " + json(most).dump());
+        fail<"rubric.range/number">(path, "value"_arg = value.dump(),
+                                    "least"_arg = json(least).dump(),
+                                    "most"_arg = json(most).dump());
     return number;
 }
 
 const json& RubricReader::listAt(const std::string& key, std::size_t fewest,
                                  std::size_t most) const {
     const json& all = value_.at(key);
-    if (!all.is_array()) fail("rubric.type", at(key), "takes a list");
+    if (!all.is_array()) fail<"rubric.type/list">(at(key));
     if (all.size() < fewest || all.size() > most)
-        fail("rubric.range", at(key),
-             "has " + std::to_string(all.size()) + " entries; takes " + std::to_string(fewest) +
-                 " to " + std::to_string(most));
+        fail<"rubric.range/length">(at(key), "count"_arg = all.size(), "least"_arg = fewest,
+                                    "most"_arg = most);
     return all;
 }
 
 void RubricReader::end() const {
     for (const auto& [key, value] : value_.items())
         if (known_.count(key) == 0)
-            fail("rubric.key", at(key), "is not known here; known are " + joined(known_, ", "));
-}
-
-void RubricReader::fail(const char* code, const std::string& path, const std::string& what) const {
-    throw Error(code, (path.empty() ? "the rubric" : shown(path)) + " " + what, {file_, 0, 0},
-                path);
+            fail<"rubric.key">(at(key), "known"_arg = uncut(joined(known_, ", ")));
 }
 
 void RubricSchema::text(const std::string& key, const std::string&) {

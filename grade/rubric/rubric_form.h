@@ -11,6 +11,7 @@
 #include "core/enum_words.h"
 #include "core/error.h"
 #include "core/text.h"
+#include "grade/messages.h"
 
 /// Three visitors of a rubric's description (describe in rubric.cpp): one reads a document, one
 /// writes it, one writes its JSON schema. Each has the same members, so that a key stands once.
@@ -78,9 +79,10 @@ class RubricReader {
             inner.end();
         }
     }
-    /// Refuses the document unless `ok`: the value of `key` is not in range.
-    void require(bool ok, const std::string& key, const std::string& what) const {
-        if (!ok) fail("rubric.range", at(key), what);
+    /// Refuses the document unless `ok`, with a message that has {path}.
+    template <FixedString kId>
+    void require(bool ok, const std::string& key) const {
+        if (!ok) fail<kId>(at(key));
     }
     void end() const;
 
@@ -90,8 +92,12 @@ class RubricReader {
     std::size_t place(const std::string& key, const std::vector<std::string_view>& words);
     const json& listAt(const std::string& key, std::size_t fewest, std::size_t most) const;
     std::string at(const std::string& key) const { return path_.empty() ? key : path_ + "." + key; }
-    [[noreturn]] void fail(const char* code, const std::string& path,
-                           const std::string& what) const;
+    template <FixedString kId, FixedString... kNames>
+    [[noreturn]] void fail(const std::string& path, const NamedArgument<kNames>&... more) const {
+        const std::string& named = path.empty() ? kWhole : path;
+        throw Error(message<kId>("path"_arg = named, more...), {file_, 0, 0}, path);
+    }
+    static inline const std::string kWhole = "the rubric";
 
     const json& value_;
     std::string path_;
@@ -155,7 +161,8 @@ class RubricWriter {
         }
         out[key] = std::move(all);
     }
-    void require(bool, const std::string&, const std::string&) const {}
+    template <FixedString kId>
+    void require(bool, const std::string&) const {}
 
     ordered_json out = ordered_json::object();
 };
@@ -208,7 +215,8 @@ class RubricSchema {
         each(inner, value, 0);
         add(key, listRule({{"type", "array"}}, fewest, most, about, inner.rule()));
     }
-    void require(bool, const std::string&, const std::string&) const {}
+    template <FixedString kId>
+    void require(bool, const std::string&) const {}
 
     /// The object's rule.
     ordered_json rule() const;

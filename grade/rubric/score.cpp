@@ -7,6 +7,7 @@
 #include <set>
 
 #include "core/text.h"
+#include "grade/messages.h"
 
 namespace farol::grade {
 namespace {
@@ -113,29 +114,34 @@ std::string nameAt(const Fix& fix) {
 }
 
 std::string lineText(const Location& where) {
-    return where.line > 0 ? " (line " + std::to_string(where.line) + ")" : "";
+    return where.line > 0 ? std::to_string(where.line) : "";
 }
 
 /// "group "door": the angle has the wrong sign (line 65)"; of several places once, with all.
-std::string sentenceOf(const Cause& cause, Reveal reveal) {
+Message sentenceOf(const Cause& cause, Reveal reveal) {
     const Fix& first = cause.fixes.front();
-    const auto valuesOf = [&](const Fix& fix) {
-        return reveal == Reveal::values && !fix.values.empty() ? "; it " + fix.values
-                                                               : std::string();
-    };
+    const std::string values = reveal == Reveal::values ? first.values : "";
     static const std::set<std::string> kVerbs{"is", "has", "stands", "shines", "moves"};
-    const std::string verb = first.what.substr(0, first.what.find(' '));
-    const std::string link = kVerbs.count(verb) != 0 ? " " : ": ";
-    if (cause.fixes.size() == 1)
-        return nameAt(first) + link + first.what + valuesOf(first) + lineText(first.where);
+    if (cause.fixes.size() == 1) {
+        const bool isVerb = kVerbs.count(first.what.substr(0, first.what.find(' '))) != 0;
+        return isVerb ? message<"part.cause/beside">(
+                            "who"_arg = uncut(nameAt(first)), "what"_arg = uncut(first.what),
+                            "values"_arg = uncut(values), "line"_arg = lineText(first.where))
+                      : message<"part.cause/of">(
+                            "who"_arg = uncut(nameAt(first)), "what"_arg = uncut(first.what),
+                            "values"_arg = uncut(values), "line"_arg = lineText(first.where));
+    }
     constexpr std::size_t kListed = 6;
-    std::string places;
+    std::vector<std::string> places;
     for (std::size_t i = 0; i < std::min(kListed, cause.fixes.size()); ++i)
-        places += (i > 0 ? ", " : "") + nameAt(cause.fixes[i]) + lineText(cause.fixes[i].where);
-    if (cause.fixes.size() > kListed)
-        places += " and " + std::to_string(cause.fixes.size() - kListed) + " more";
-    return "at " + std::to_string(cause.fixes.size()) + " places " + first.what + valuesOf(first) +
-           ": " + places;
+        places.push_back(message<"part.cause/place">("who"_arg = uncut(nameAt(cause.fixes[i])),
+                                                     "line"_arg = lineText(cause.fixes[i].where))
+                             .text);
+    const std::size_t count = cause.fixes.size();
+    return message<"part.cause/places">(
+        "count"_arg = count, "what"_arg = uncut(first.what), "values"_arg = uncut(values),
+        "places"_arg = uncut(joined(places, ", ")),
+        "more"_arg = count > kListed ? std::to_string(count - kListed) : std::string());
 }
 
 /// The criteria of the work, as a rubric weighs them.
@@ -293,12 +299,13 @@ void score(Grade& grade, const Evidence* evidence, const Rubric& rubric, const s
                 fix.where = cameraPlace(causes[c].code, fix.where, xml);
             GradedCause cause;
             cause.code = causes[c].code;
-            cause.message = sentenceOf(causes[c], rubric.reveal);
+            Message sentence = sentenceOf(causes[c], rubric.reveal);
             cause.spoiled = evidence->spoiled[c];
             constexpr double kSeen = 5e-4;  // of the work: less is a few pixels' rounding
             cause.isSeen = cause.spoiled > kSeen;
             if (evidence->isUnclosed && cause.code == "group.parent")
-                cause.message += "; this follows from the missing end tag";
+                sentence = message<"part.cause/unclosed">("cause"_arg = sentence);
+            cause.message = sentence.text;
             for (const Fix& fix : causes[c].fixes)
                 cause.places.push_back({fix.who, fix.where, excerptAt(fix.where)});
             grade.causes.push_back(std::move(cause));

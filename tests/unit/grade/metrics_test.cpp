@@ -83,3 +83,24 @@ TEST_CASE("each metric has a unique name, and its sentence and columns fit its r
     }
     CHECK(mainMetric().appliesToPictures());
 }
+
+TEST_CASE("what a rubric's masks hide does not count, in any measure of images") {
+    Frame reference, submission;
+    for (int i = 0; i < 64 * 64; ++i)
+        for (const int level : {i * 5 % 256, 120, 40, 255})
+            reference.color.pixels.push_back(static_cast<std::uint8_t>(level));
+    reference.color.width = reference.color.height = 64;
+    submission.color = reference.color;
+    for (int y = 20; y < 28; ++y)
+        for (int x = 20; x < 28; ++x)
+            submission.color.pixels[static_cast<std::size_t>(4 * (64 * y + x) + 1)] = 255;
+    const std::vector<Rectangle> none, hidden = {{8, 8, 32, 32}};
+    FramePair open(reference, submission, none, false),
+        masked(reference, submission, hidden, false);
+    for (const MetricSpec& metric : metrics()) {
+        if (!metric.appliesToPictures()) continue;
+        INFO(metric.name);
+        CHECK(metric.image()->compute(open).loss > 0.001);
+        CHECK(metric.image()->compute(masked).loss < 1e-6);
+    }
+}

@@ -184,7 +184,7 @@ void writeCsv(std::ostream& out, const ClassResult& all) {
 }
 
 void writeCriteria(std::ostream& out, const ClassResult& all) {
-    // Criteria as they first appear: tasks may have rubrics of their own.
+    // Criteria as they first appear: each task may have another rubric.
     std::vector<std::vector<std::string>> criteria(all.tasks.size());
     for (std::size_t i = 0; i < all.count; ++i) {
         const SubmissionResult one = all.at(i);

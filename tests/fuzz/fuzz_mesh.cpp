@@ -29,12 +29,13 @@ std::optional<generator::Mesh> tryDecode(std::string_view bytes, const std::stri
     }
 }
 
-/// True for meshes that differ in nothing that the format keeps: no format keeps parts, text of our
-/// own no colours. Far from the origin the places' last bits may decide for another origin: then
-/// they agree to what a float holds of the mesh.
+/// True for meshes that differ in nothing that the format keeps: no format keeps parts or whole
+/// turns of texture coordinates, text of our own no colours. Far from the origin the places' last
+/// bits may decide for another origin: then they agree to what a float holds of the mesh.
 bool agrees(const generator::Mesh& mesh, const generator::Mesh& again, io::Format format) {
     generator::MeshArrays kept = mesh.arrays(), read = again.arrays();
     kept.parts.clear();
+    kept.uvOrigin = glm::dvec2(0.0);
     if (format == io::Format::text3d) kept.colors.clear();
     if (kept == read) return true;
     if (kept.origin == glm::dvec3(0.0) || kept.positions.size() != read.positions.size())

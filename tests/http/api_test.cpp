@@ -214,7 +214,7 @@ TEST_CASE("a wrong option is named with its range, and all of them at once") {
     REQUIRE(problem["errors"].size() == 3);
     const std::string first = problem["errors"][0]["message"];
     CHECK(first.find("width") != std::string::npos);
-    CHECK(first.find("1..4096") != std::string::npos);
+    CHECK(first.find("1 to 4096") != std::string::npos);
     const Answer near = ask(server.port(), rendering("?widht=100"));
     CHECK(near.json().value("detail", "").find("\"width\"") != std::string::npos);
 }

@@ -302,7 +302,8 @@ void score(Grade& grade, const Evidence* evidence, const Rubric& rubric, const s
             Message sentence = sentenceOf(causes[c], rubric.reveal);
             cause.spoiled = evidence->spoiled[c];
             constexpr double kSeen = 5e-4;  // of the work: less is a few pixels' rounding
-            cause.isSeen = cause.spoiled > kSeen;
+            // A placeholder may look like what it stands for: still the file was not handed in.
+            cause.isSeen = cause.spoiled > kSeen || cause.code.ends_with(".file-missing");
             if (evidence->isUnclosed && cause.code == "group.parent")
                 sentence = message<"part.cause/unclosed">("cause"_arg = sentence);
             cause.message = sentence.text;

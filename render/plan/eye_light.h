@@ -2,7 +2,11 @@
 
 #include <glm/glm.hpp>
 
+#include "render/plan/camera.h"
+
 namespace farol::render {
+
+struct PlacedLight;
 
 /// A light as shaders read it, in eye space.
 struct EyeLight {
@@ -12,5 +16,9 @@ struct EyeLight {
     glm::vec4 diffuse, ambient, specular;
     bool operator==(const EyeLight&) const = default;
 };
+
+/// A placed light for the shaders, with its colours at a time. Places beyond 1e18 are brought to
+/// there, along their direction: squares of what is farther are no floats.
+EyeLight eyeLight(const PlacedLight& placed, const ViewTransform& view, double timeS);
 
 }  // namespace farol::render

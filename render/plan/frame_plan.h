@@ -30,6 +30,7 @@ struct DrawItem {
     std::optional<generator::Surface> surface;
     glm::vec3 unitFromObject{1.0F};  ///< scale from the mesh to the surface's units
     glm::vec3 surfaceEye{0.0F};      ///< the viewer in the surface's units
+    bool isOnSurface = false;        ///< its vertices are; pixels need no step to it
     bool inside = false;             ///< the insides are drawn
     bool mirrored = false;           ///< determinant < 0: front faces are clockwise
     glm::vec3 diffuse{0.0F}, ambient{0.0F}, specular{0.0F}, emissive{0.0F};

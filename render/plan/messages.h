@@ -126,6 +126,10 @@ inline constexpr MessageRow kRenderMessages[] = {
      "this light has no effect: its group contains no model; move it to the <lights> of the scene "
      "or "
      "into the group of the models"},
+    {"scene.outline",
+     "the camera is so close to the surface of this model that its outline may be {error} px off, "
+     "with {most} divisions of a turn; move the camera away, or use a smaller model",
+     {"12", "1024"}},
 };
 
 /// A message of this floor: message<"scene.light-inside">("line"_arg = line).

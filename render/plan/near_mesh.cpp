@@ -73,8 +73,11 @@ using Polygon = std::vector<Corner>;
 
 class Placer {
   public:
-    Placer(const MeshData& data, const MeshPlace& place, const ViewTransform& view)
+    /// `fromEye`: of the mesh's vertices, or null: their positions less the viewer's.
+    Placer(const MeshData& data, const MeshPlace& place, const ViewTransform& view,
+           const std::vector<dvec3>* fromEye = nullptr)
         : data_(data),
+          fromEye_(fromEye),
           mesh_(data.mesh),
           place_(place),
           view_(view),
@@ -122,6 +125,7 @@ class Placer {
     }
 
     std::optional<NearMesh> build(std::size_t maxVertices) {
+        if (views_.empty()) placeVertices();
         used_.assign(mesh_.positions().size(), ~0U);
         std::vector<generator::MeshPart> parts = mesh_.parts();
         if (parts.empty()) parts.push_back({"", 0, mesh_.indices().size()});
@@ -170,11 +174,16 @@ class Placer {
         return std::max(view_.near, distance / secant);
     }
 
+    dvec3 fromEye(std::size_t vertex) const {
+        return fromEye_ ? (*fromEye_)[vertex] : dvec3(mesh_.positions()[vertex]) - eye_;
+    }
+
     void placeVertices() {
-        views_.reserve(mesh_.positions().size());
-        outside_.reserve(mesh_.positions().size());
-        for (const glm::vec3& position : mesh_.positions()) {
-            views_.push_back(viewOf(dvec3(position) - eye_));
+        const std::size_t count = mesh_.positions().size();
+        views_.reserve(count);
+        outside_.reserve(count);
+        for (std::size_t i = 0; i < count; ++i) {
+            views_.push_back(viewOf(fromEye(i)));
             outside_.push_back(static_cast<std::uint8_t>(sides_.outside(views_.back())));
         }
     }
@@ -192,7 +201,7 @@ class Placer {
     Corner cornerOf(std::uint32_t index) const {
         Corner corner;
         corner.index = index;
-        corner.position = dvec3(mesh_.positions()[index]) - eye_;
+        corner.position = fromEye(index);
         corner.view = views_[index];
         if (!mesh_.normals().empty()) corner.normal = dvec3(mesh_.normals()[index]);
         if (!mesh_.uvs().empty()) corner.uv = dvec2(mesh_.uvs()[index]);
@@ -285,7 +294,7 @@ class Placer {
     void startFace(const std::uint32_t* corner, Polygon& polygon) {
         if (!place_.isFlat) return;
         std::array<dvec3, 3> at{};
-        for (std::size_t k = 0; k < 3; ++k) at[k] = dvec3(mesh_.positions()[corner[k]]) - eye_;
+        for (std::size_t k = 0; k < 3; ++k) at[k] = fromEye(corner[k]);
         const dvec3 cross = glm::cross(at[1] - at[0], at[2] - at[0]);
         const double size = glm::length(cross);
         center_ = (at[0] + at[1] + at[2]) / 3.0;
@@ -356,6 +365,7 @@ class Placer {
     }
 
     const MeshData& data_;
+    const std::vector<dvec3>* const fromEye_;
     const generator::Mesh& mesh_;
     const MeshPlace& place_;
     const ViewTransform& view_;
@@ -381,6 +391,14 @@ std::optional<NearMesh> placeInDouble(const MeshData& data, const MeshPlace& pla
     Placer placer(data, place, view);
     if (!placer.isSuspect() || !placer.isNeeded()) return std::nullopt;
     return placer.build(maxVertices);
+}
+
+std::optional<NearMesh> placeInDouble(ExactMesh exact, const MeshPlace& place,
+                                      const ViewTransform& view, std::size_t maxVertices) {
+    exact.arrays.positions.assign(exact.fromEye.size(), glm::vec3(0.0F));
+    MeshData data;
+    data.mesh = generator::Mesh(std::move(exact.arrays));
+    return Placer(data, place, view, &exact.fromEye).build(maxVertices);
 }
 
 }  // namespace farol::render

@@ -3,6 +3,7 @@
 #include <glm/glm.hpp>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "render/plan/camera.h"
 #include "render/plan/mesh_library.h"
@@ -29,6 +30,15 @@ struct NearMesh {
 /// the cut mesh would have more than `maxVertices`. Triangles out of view are left out, those that
 /// reach over a side of the view or over many distances are cut; parts stay.
 std::optional<NearMesh> placeInDouble(const MeshData& data, const MeshPlace& place,
+                                      const ViewTransform& view, std::size_t maxVertices);
+
+/// A mesh of which the places are known in double, relative to the viewer, object space: cut and
+/// placed likewise, whatever floats would do.
+struct ExactMesh {
+    generator::MeshArrays arrays;  ///< its positions are not looked at
+    std::vector<glm::dvec3> fromEye;
+};
+std::optional<NearMesh> placeInDouble(ExactMesh exact, const MeshPlace& place,
                                       const ViewTransform& view, std::size_t maxVertices);
 
 /// Most error of single precision on the screen, px, that a mesh is drawn with as it is.

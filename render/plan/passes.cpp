@@ -13,13 +13,14 @@ constexpr FeatureSet kShapeFeatures{
     Feature::surfaceProfile, Feature::surfaceRay,       Feature::surfaceTwoSteps,
     Feature::surfaceWrapsV,  Feature::surfaceTurnFromX, Feature::surfaceDiscUv};
 
-FeatureSet surfaceFeatures(const generator::Surface& surface) {
+FeatureSet surfaceFeatures(const DrawItem& item) {
+    const generator::Surface& surface = *item.surface;
     const generator::SurfaceKind& kind = *surface.kind;
     FeatureSet features{Feature::surface};
     if (kind.hasCaps) features.add(Feature::surfaceCaps);
     if (kind.hasProfile) features.add(Feature::surfaceProfile);
     if (kind.wrapsV) features.add(Feature::surfaceWrapsV);
-    if (kind.raySteps > 0) features.add(Feature::surfaceRay);
+    if (kind.raySteps > 0 && !item.isOnSurface) features.add(Feature::surfaceRay);
     if (kind.raySteps > 1) features.add(Feature::surfaceTwoSteps);
     if (surface.turnFromX) features.add(Feature::surfaceTurnFromX);
     if (surface.discUv) features.add(Feature::surfaceDiscUv);
@@ -70,7 +71,7 @@ FeatureSet itemFeatures(const FramePlan& plan, const DrawItem& item) {
                                      plan.style);
     // Models without light and texture need their outline only.
     const bool plain = plan.style.layer == Layer::color && !plan.style.lit && item.texture < 0;
-    if (item.surface && !plain) features = features | surfaceFeatures(*item.surface);
+    if (item.surface && !plain) features = features | surfaceFeatures(item);
     return features;
 }
 

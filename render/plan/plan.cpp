@@ -5,14 +5,13 @@
 
 #include "render/plan/background.h"
 #include "render/plan/camera.h"
+#include "render/plan/choose_mesh.h"
 #include "render/plan/frustum.h"
 #include "render/plan/light_reach.h"
 #include "render/plan/lines.h"
 #include "render/plan/messages.h"
-#include "render/plan/near_mesh.h"
 #include "render/plan/passes.h"
 #include "render/plan/sampling.h"
-#include "render/plan/tessellate.h"
 #include "scene/animation.h"
 
 namespace farol::render {
@@ -28,8 +27,6 @@ int defaultSamples(double errorPx) {
 /// Triangles of a frame from which on meshes are drawn as coarse as they come: copies that all fill
 /// the view would each be fine enough for it, and a frame take minutes. Some seconds' worth.
 constexpr std::int64_t kMaxRefinedTriangles = 16'000'000;
-/// Vertices of a frame that are placed in double; what is over is drawn as it is.
-constexpr std::size_t kMaxNearVertices = 4'000'000;
 // Where the third-person camera holds its entity: in front of the eye, in eye space.
 constexpr glm::dvec3 kEntityPlace{0.0, 0.0, -3.0};
 // Half the diagonal of a sheared box is at most sqrt(3) times the root of its squared edges.
@@ -82,8 +79,8 @@ class Planner {
         const Sampling sampling = chooseSampling(style_.samples, gl_, std::max(size.x, size.y));
         samples_ = samplePattern(sampling, gl_);
         snapPx_ = gl_.snapPx / sampling.scale;
-        addInstances(scene_, list, plan_.view, {});
         plan_.findings = list.findings;
+        addInstances(scene_, list, plan_.view, {});
         if (placed_.entity) addEntity();
         if (style_.layer == Layer::color) addLines(plan_, scene_, list, options_);
         addBackground();
@@ -156,32 +153,11 @@ class Planner {
                      std::vector<EyeLight>(plan_.lightSets[0]));
     }
 
-    EyeLight toEye(const PlacedLight& placed, const ViewTransform& view) const {
-        const scene::Light& light = *placed.light;
-        const bool fixed = light.space == scene::LightSpace::camera;
-        const glm::dvec3 direction = fixed ? placed.direction : view.rotation * placed.direction;
-        const double size = glm::length(direction);
-        const glm::vec3 unit = size > 0.0 ? glm::vec3(direction / size) : glm::vec3(0.0F);
-        EyeLight eye{};
-        if (light.type == scene::LightType::directional)
-            eye.position = glm::vec4(unit, 0.0F);
-        else
-            eye.position = glm::vec4(
-                glm::vec3(fixed ? placed.position : view.eyeFromWorld(placed.position)), 1.0F);
-        const bool cone = light.type == scene::LightType::spot && light.cutoffDeg < 180.0;
-        eye.spot = glm::vec4(
-            unit, cone ? static_cast<float>(std::cos(glm::radians(light.cutoffDeg))) : -2.0F);
-        eye.attenuation = glm::vec4(light.constant, light.linear, light.quadratic, light.exponent);
-        eye.diffuse = glm::vec4(scene::colorAt(light.diffuse, options_.timeS), 1.0F);
-        eye.ambient = glm::vec4(scene::colorAt(light.ambient, options_.timeS), 1.0F);
-        eye.specular = glm::vec4(scene::colorAt(light.specular, options_.timeS), 1.0F);
-        return eye;
-    }
-
     void addLights(const InstanceList& list, const ViewTransform& view,
                    const std::vector<EyeLight>& inherited) {
         std::vector<EyeLight> lights;
-        for (const PlacedLight& one : list.lights) lights.push_back(toEye(one, view));
+        for (const PlacedLight& one : list.lights)
+            lights.push_back(eyeLight(one, view, options_.timeS));
         for (const std::vector<int>& set : list.lightSets) {
             std::vector<EyeLight>& chosen = plan_.lightSets.emplace_back();
             if (!style_.lit) continue;
@@ -224,32 +200,14 @@ class Planner {
         const scene::Model& model = *instance.model;
         DrawItem item;
         item.mesh = instance.mesh;
-        if (instance.open && plan_.stats.triangles < kMaxRefinedTriangles) {
-            const std::optional<ProjectedSurface> seen =
-                instance.surface >= 0 && wantsSurface()
-                    ? seenSurface(list.surfaces[static_cast<std::size_t>(instance.surface)],
-                                  viewFromObject)
-                    : std::nullopt;
-            item.mesh =
-                meshes_.get(*instance.mesh, model, assets_,
-                            fineness(instance.mesh->bounds, viewFromObject, seen,
-                                     model.texture.has_value(), {errorPx_, style_.shading}, view));
-            if (seen) {
-                const glm::dvec3& balance = item.mesh->balance;
-                for (int i = 0; i < 3; ++i) viewFromObject[i] *= balance[i];
-                if (seen->surface.kind->isNeeded(seen->surface, item.mesh->fullTurn,
-                                                 model.texture.has_value()))
-                    item.surface = seen->surface;
-                item.unitFromObject = glm::vec3(balance / seen->surface.lengths);
-                item.surfaceEye = glm::vec3(seen->eye);
-            }
-        }
+        if (instance.open && plan_.stats.triangles < kMaxRefinedTriangles)
+            choice_.refine(item, instance, list, view, viewFromObject);
         // Only now is it known how far the mesh reaches: balanced ones stand out of their surface.
         if (betweenSamples(item.mesh->bounds, viewFromObject)) {
             ++plan_.stats.betweenSamples;
             return;
         }
-        if (!placeNear(item, instance, view, viewFromObject)) {
+        if (!choice_.placeNear(item, instance, view, viewFromObject)) {
             ++plan_.stats.culled;
             return;
         }
@@ -294,27 +252,6 @@ class Planner {
         push(std::move(item), model.twoSided);
     }
 
-    /// Places the mesh in double where floats would move it on the screen. Returns false where
-    /// nothing of it is in view.
-    bool placeNear(DrawItem& item, const Instance& instance, const ViewTransform& view,
-                   glm::dmat4& viewFromObject) {
-        const bool isLit = style_.lit && style_.layer == Layer::color;
-        // Lines would show the cuts, and light at corners would move with them.
-        if (drawsLines() || (isLit && style_.shading == scene::Shading::gouraud)) return true;
-        MeshPlace place{instance.worldFromObject};
-        for (int i = 0; i < 3; ++i) place.worldFromObject[i] *= item.mesh->balance[i];
-        place.isFlat = isLit && style_.shading == scene::Shading::flat;
-        place.keepsParity = style_.shading == scene::Shading::chess;
-        place.hasSurface = item.surface.has_value();
-        const std::optional<NearMesh> near =
-            placeInDouble(*item.mesh, place, view, kMaxNearVertices - nearVertices_);
-        if (!near) return true;
-        item.mesh = near->mesh;
-        viewFromObject[3] += glm::dvec4(glm::dmat3(viewFromObject) * near->eye, 0.0);
-        nearVertices_ += near->mesh->mesh.positions().size();
-        return !near->mesh->mesh.indices().empty();
-    }
-
     void push(DrawItem item, bool twoSided) {
         plan_.stats.triangles += static_cast<std::int64_t>(item.indices / 3);
         if (twoSided) {
@@ -328,15 +265,6 @@ class Planner {
         plan_.items.push_back(std::move(item));
     }
 
-    /// True where faces are filled and a pixel can show the surface itself, not its facets or their
-    /// corners' light.
-    bool wantsSurface() const {
-        if (style_.layer != Layer::color) return true;
-        if (style_.lit) return style_.shading == scene::Shading::phong;
-        return style_.shading != scene::Shading::wireframe &&
-               style_.shading != scene::Shading::points && style_.shading != scene::Shading::chess;
-    }
-
     void fillMaterial(DrawItem& item, const Instance& instance, const InstanceList& list,
                       const scene::Material& undressed) {
         const scene::Model& model = *instance.model;
@@ -347,18 +275,13 @@ class Planner {
         item.specular = scene::colorAt(material.specular, t);
         item.emissive = scene::colorAt(material.emissive, t);
         item.shininess = material.shininess;
-        if (drawsLines() && !model.material) item.diffuse = glm::vec3(1.0F);
+        if (drawsLines(style_) && !model.material) item.diffuse = glm::vec3(1.0F);
         if (model.texture) return fillTexture(item, *model.texture, list, instance.texture);
-        if (model.material || item.mesh->mesh.colors().empty() || drawsLines()) return;
+        if (model.material || item.mesh->mesh.colors().empty() || drawsLines(style_)) return;
         // The mesh's own colours are the material, as bright in ambient light as others are.
         item.colored = true;
         item.ambient = ambientOfWhite(undressed);
         item.diffuse = glm::vec3(1.0F);
-    }
-
-    bool drawsLines() const {
-        return style_.shading == scene::Shading::wireframe ||
-               style_.shading == scene::Shading::points;
     }
 
     /// The ambient colour of a white material in the dialect's proportion.
@@ -379,14 +302,14 @@ class Planner {
         item.shininess = material.shininess;
         item.texture = -1;
         item.uvFrom = glm::vec4(1.0F, 1.0F, 0.0F, 0.0F);
-        if (drawsLines()) item.diffuse = glm::vec3(1.0F);
+        if (drawsLines(style_)) item.diffuse = glm::vec3(1.0F);
         if (part.texture >= 0) fillTexture(item, *part.material->texture, list, part.texture);
     }
 
     /// `texture`: index into InstanceList::textures.
     void fillTexture(DrawItem& item, const scene::Texture& from, const InstanceList& list,
                      int texture) {
-        if (drawsLines() || style_.layer != Layer::color) return;
+        if (drawsLines(style_) || style_.layer != Layer::color) return;
         // Unlit, a texture is its own picture: nothing modulates it.
         if (!style_.lit) item.diffuse = glm::vec3(1.0F);
         const generator::Mesh& mesh = item.mesh->mesh;
@@ -455,8 +378,8 @@ class Planner {
     SamplePattern samples_;
     double snapPx_ = 0.0;  ///< of the image
     ReachedLights reached_{plan_.lightSets};
-    std::size_t nearVertices_ = 0;  ///< placed in double
-    std::vector<int> textureOf_;    ///< of an InstanceList, in plan_.textures
+    MeshChoice choice_{style_, errorPx_, assets_, meshes_, plan_.findings};
+    std::vector<int> textureOf_;  ///< of an InstanceList, in plan_.textures
 };
 
 }  // namespace

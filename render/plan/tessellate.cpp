@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace farol::render {
 namespace {
@@ -67,8 +68,8 @@ double shadingDivisions(scene::Shading shading, double radiusPx) {
 
 }  // namespace
 
-std::optional<ProjectedSurface> seenSurface(const generator::Surface& surface,
-                                            const glm::dmat4& viewFromObject) {
+std::optional<ProjectedSurface> projectSurface(const generator::Surface& surface,
+                                               const glm::dmat4& viewFromObject) {
     glm::dmat3 viewFromUnit(viewFromObject);
     double largest = 0.0;
     for (int i = 0; i < 3; ++i) {
@@ -76,13 +77,34 @@ std::optional<ProjectedSurface> seenSurface(const generator::Surface& surface,
         largest = std::max(largest, glm::length(viewFromUnit[i]));
     }
     // Of 24 bits, ten are left for the ray in the worst case.
-    constexpr double kFlattest = 1e-4, kNearest = 1e-3;
+    constexpr double kFlattest = 1e-4;
     if (!(std::abs(glm::determinant(viewFromUnit)) > kFlattest * largest * largest * largest))
         return std::nullopt;
     const glm::dvec3 center(viewFromObject[3]);
-    const ProjectedSurface seen{surface, -(glm::inverse(viewFromUnit) * center)};
-    if (surface.kind->raySteps > 0 && unitDistance(seen) < kNearest) return std::nullopt;
-    return seen;
+    return ProjectedSurface{surface, -(glm::inverse(viewFromUnit) * center)};
+}
+
+bool isTooClose(const ProjectedSurface& seen) {
+    constexpr double kNearest = 1e-3;
+    return seen.surface.kind->raySteps > 0 && unitDistance(seen) < kNearest;
+}
+
+double finestErrorPx(const ProjectedSurface& seen, const generator::Fineness& fineness,
+                     double errorPx) {
+    const double near = unitDistance(seen);
+    if (!(near > 0.0)) return 0.0;
+    const glm::dvec3& lengths = seen.surface.lengths;
+    const double radius = std::max({lengths.x, lengths.y, lengths.z});
+    const double half = std::sin(std::numbers::pi / generator::kMaxDivisions);
+    // The middle of a ball's facet is twice as deep as that of a chord.
+    double depth = radius * half * half * (seen.surface.kind->isBall ? 1.0 : 0.5);
+    if (fineness.balanced) depth *= 0.5;
+    return errorPx * depth / fineness.error;
+}
+
+double outlineShare(const ProjectedSurface& seen) {
+    const double near = unitDistance(seen);
+    return near > 0.0 ? std::min(1.0, std::sqrt(near / (2.0 + near))) : 1.0;
 }
 
 generator::Fineness fineness(const Box& bounds, const glm::dmat4& viewFromObject,

@@ -24,11 +24,22 @@ struct ProjectedSurface {
     glm::dvec3 eye;
 };
 
-/// The exact surface of a model that stands at viewFromObject, if single precision can follow a
-/// pixel's ray to it: not where it is flattened, and not where the viewer stands so close to it
-/// that its size hides the distance.
-std::optional<ProjectedSurface> seenSurface(const generator::Surface& surface,
-                                            const glm::dmat4& viewFromObject);
+/// The exact surface of a model that stands at viewFromObject; nothing where it is flattened.
+std::optional<ProjectedSurface> projectSurface(const generator::Surface& surface,
+                                               const glm::dmat4& viewFromObject);
+
+/// True where the viewer stands so close to the surface that its size hides the distance: single
+/// precision cannot follow a pixel's ray to it.
+bool isTooClose(const ProjectedSurface& seen);
+
+/// The error on the screen, px, of the finest mesh of a shape for which `fineness` is the one that
+/// `errorPx` asks for. 0 where the distance to the surface is not known.
+double finestErrorPx(const ProjectedSurface& seen, const generator::Fineness& fineness,
+                     double errorPx);
+
+/// By which share of that its outline errs: the horizon of a round surface is farther away than its
+/// nearest point.
+double outlineShare(const ProjectedSurface& seen);
 
 /// How fine a shape has to be whose bounding box is `bounds` (object space) and that stands at
 /// viewFromObject, so that no point of its surface moves by more than tolerance.errorPx on the

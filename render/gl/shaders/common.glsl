@@ -8,6 +8,9 @@
 #define COVERED centroid
 #endif
 
+// No finite input gives NaN or infinity: docs/explanation/accuracy.md, "Guards of the shaders", has a
+// row for each division, root, power and logarithm of these files.
+
 // The shading model of OpenGL 2.1, section 2.14.1, written once for vertex and fragment stage.
 // Eye space: the viewer at the origin, looking along -Z.
 
@@ -51,7 +54,8 @@ void shade(vec3 position, vec3 normal, out vec3 primary, out vec3 secondary) {
             // A light exactly at the point has no direction: ambient only.
             toLight = distance > 0.0 ? toLight / distance : vec3(0.0);
             vec3 k = lights[i].attenuation.xyz;
-            strength = 1.0 / (k.x + distance * (k.y + distance * k.z));
+            // A tiny sum rounds to 0; 1e30 is beyond what any colour needs to saturate.
+            strength = 1.0 / max(k.x + distance * (k.y + distance * k.z), 1e-30);
 #ifdef SPOT
             if (lights[i].spot.w > -2.0) {
                 float cosine = -dot(toLight, lights[i].spot.xyz);
@@ -70,7 +74,8 @@ void shade(vec3 position, vec3 normal, out vec3 primary, out vec3 secondary) {
 #ifdef SPECULAR
         if (lambert > 0.0) {
 #ifdef LOCAL_VIEWER
-            vec3 toViewer = -normalize(position);
+            // A vertex may be at the viewer's very place; no pixel is.
+            vec3 toViewer = -position * inversesqrt(max(dot(position, position), 1e-30));
 #else
             vec3 toViewer = vec3(0.0, 0.0, 1.0);
 #endif

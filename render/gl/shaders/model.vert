@@ -107,7 +107,8 @@ void main() {
 #endif
     vec3 normal = unitOr(normalFromObject * normalObject, vec3(0.0, 0.0, 1.0));
     vec3 primary, secondary, spare;
-    shade(position.xyz, normal, primary, secondary);
+    // Squares of what is farther are no floats; it is out of view, but its light is interpolated.
+    shade(clamp(position.xyz, -1e18, 1e18), normal, primary, secondary);
 #ifdef SEPARATE_SPECULAR
     finish(primary, secondary, modulated, added);
 #else

@@ -26,7 +26,7 @@ vec4 filtered(vec2 at, vec2 right, vec2 up) {
 #elif defined(FILTER_MIPMAP)
     vec2 size = vec2(textureSize(image, 0));
     vec2 a = right * size, b = up * size;
-    return textureLod(image, at, 0.5 * log2(max(dot(a, a), dot(b, b))));
+    return textureLod(image, at, 0.5 * log2(max(max(dot(a, a), dot(b, b)), 1e-30)));
 #else
     return texture(image, at);
 #endif

@@ -40,8 +40,7 @@ std::vector<Setting> settings(bool quick) {
     const std::vector<int> fixed =
         quick ? std::vector{16, 64} : std::vector{8, 16, 32, 64, 128, 256};
     for (const double error : errors)
-        for (const int samples : std::vector{1, 4, 16})
-            all.push_back({0, error, phong, samples});
+        for (const int samples : std::vector{1, 4, 16}) all.push_back({0, error, phong, samples});
     all.push_back({0, 1.0, gouraud, 4});
     all.push_back({0, 0.25, phong, 8});
     all.push_back({0, 0.25, phong, 4, scene::Filter::linear});

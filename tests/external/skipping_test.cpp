@@ -1,4 +1,5 @@
-// Scenes of others give the same pictures with nothing left out and a separate call for every model.
+// Scenes of others give the same pictures with nothing left out and a separate call for every
+// model.
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>

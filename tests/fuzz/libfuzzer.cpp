@@ -1,4 +1,5 @@
-// The functions that the driver gives to targets, for builds with libFuzzer, which watches the code itself.
+// The functions that the driver gives to targets, for builds with libFuzzer, which watches the code
+// itself.
 #include "tests/fuzz/target.h"
 
 namespace farol::fuzz {

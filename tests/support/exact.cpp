@@ -13,8 +13,8 @@
 namespace farol::bench {
 namespace {
 
-/// The divisions that a dialect of the field writes most often: twice as many divisions round as along, one
-/// stack where the side is straight, a quarter a patch (four make a turn).
+/// The divisions that a dialect of the field writes most often: twice as many divisions round as
+/// along, one stack where the side is straight, a quarter a patch (four make a turn).
 int divisionsOf(const std::string& shape, std::size_t place, int divisions) {
     if (shape == "patch") return std::max(1, divisions / 4);
     if (place == 0) return divisions;

@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "grade/images/flip.h"
 #include "grade/images/ssim.h"
+#include "grade/messages.h"
 
 namespace farol::grade {
 namespace {
@@ -99,7 +100,7 @@ std::pair<Comparison, image::Image> compare(const image::Image& first, const ima
             const Pixel pixel = show(here, tolerant);
             shown.pixels.insert(shown.pixels.end(), pixel.begin(), pixel.end());
         }
-    if (counted == 0) throw Error("image.mask", "the mask leaves no pixel to compare");
+    if (counted == 0) throw Error(message<"image.mask">());
     const auto count = static_cast<double>(counted);
     result.counted = count / static_cast<double>(a.all.size());
     result.meanLevels /= count;

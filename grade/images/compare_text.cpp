@@ -55,8 +55,7 @@ Rectangle readRectangle(const std::string& text, const std::string& field) {
     };
     if (!number('\0', wanted.width) || !number('x', wanted.height) || !number('+', wanted.x) ||
         !number('+', wanted.y) || at != end)
-        throw Error("option.range",
-                    field + " takes WxH+X+Y, as in 512x512+1+31, not " + farol::quoted(text), {},
+        throw Error(message<"option.range/rectangle">("field"_arg = field, "value"_arg = text), {},
                     field);
     return wanted;
 }

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/error.h"
+#include "grade/messages.h"
 
 namespace farol::grade {
 namespace {
@@ -161,10 +162,10 @@ std::vector<float> gaussian(double sigma, int radius) {
 void requireSameSize(int widthA, int heightA, int widthB, int heightB) {
     if (widthA == widthB && heightA == heightB && widthA > 0 && heightA > 0) return;
     const auto text = [](int width, int height) {
-        return std::to_string(width) + "x" + std::to_string(height);
+        return std::to_string(width) + " x " + std::to_string(height);
     };
-    throw Error("image.size", "the pictures are of " + text(widthA, heightA) + " and of " +
-                                  text(widthB, heightB) + " pixels: only equal sizes compare");
+    throw Error(message<"image.size">("first"_arg = text(widthA, heightA),
+                                      "second"_arg = text(widthB, heightB)));
 }
 
 }  // namespace farol::grade

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "core/error.h"
+#include "grade/messages.h"
 
 namespace farol::grade {
 namespace {
@@ -34,7 +35,7 @@ Plane ssim(const FloatImage& first, const FloatImage& second) {
     const int width = first.width(), height = first.height();
     requireSameSize(width, height, second.width(), second.height());
     if (width <= 2 * kSsimReach || height <= 2 * kSsimReach)
-        throw Error("image.size", "structural similarity takes pictures of at least 11x11 pixels");
+        throw Error(message<"image.size/ssim">("min"_arg = 2 * kSsimReach + 1));
     const std::vector<float> weights = gaussian(kSigmaPx, kSsimReach);
     const Plane a = luminance(first), b = luminance(second);
     const Plane meanA = filter(a, weights, weights), meanB = filter(b, weights, weights);

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "generator/surface.h"
+#include "generator/registry.h"
 #include "render/plan/near_mesh.h"
 
 namespace farol::render {

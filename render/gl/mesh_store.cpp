@@ -52,6 +52,16 @@ std::size_t addColors(const Api& api, GpuMesh& gpu, const generator::Mesh& mesh,
     return all.size() * sizeof(glm::u8vec4);
 }
 
+/// The corners of each vertex's triangle, attributes 3 to 9 in place of an instance's. Returns
+/// their bytes.
+std::size_t addLitCorners(const Api& api, GpuMesh& gpu, const std::vector<LitCorners>& corners) {
+    gpu.litCorners = Buffer(api);
+    fill(api, gpu.litCorners, GL_ARRAY_BUFFER, corners);
+    for (GLuint i = 0; i < 7; ++i)
+        attribute(api, 3 + i, 3, sizeof(LitCorners), i * sizeof(glm::vec3));
+    return corners.size() * sizeof(LitCorners);
+}
+
 /// Where vertices are for the viewer, attribute 13, where that was computed. Returns their bytes.
 std::size_t addEyePositions(const Api& api, GpuMesh& gpu, const MeshData& data, bool flat) {
     if (data.eyePositions.empty()) return 0;
@@ -134,7 +144,10 @@ GpuMesh upload(const Api& api, const MeshData& data, bool flat, const Buffer& pl
     attribute(api, 2, 2, stride, offsetof(Vertex, uv));
     gpu.bytes += addColors(api, gpu, mesh, flat);
     gpu.bytes += addEyePositions(api, gpu, data, flat);
-    addPlaces(api, places);
+    if (data.litCorners.empty())
+        addPlaces(api, places);
+    else
+        gpu.bytes += addLitCorners(api, gpu, data.litCorners);
     return gpu;
 }
 

@@ -12,7 +12,7 @@ namespace farol::render::gl {
 /// middle (attribute 3), drawn without indices.
 struct GpuMesh {
     VertexArray array;
-    Buffer vertices, indices, colors, eyePositions;
+    Buffer vertices, indices, colors, eyePositions, litCorners;
     GLsizei count = 0;
     bool indexed = true;
     std::size_t bytes = 0;

@@ -106,10 +106,10 @@ bool MeshChoice::take(DrawItem& item, const std::optional<NearMesh>& near,
 bool MeshChoice::placeNear(DrawItem& item, const Instance& instance, const ViewTransform& view,
                            glm::dmat4& viewFromObject) {
     const bool isLit = style_.lit && style_.layer == Layer::color;
-    // Lines would show the cuts, and light at corners would move with them.
-    if (drawsLines(style_) || (isLit && style_.shading == scene::Shading::gouraud)) return true;
+    if (drawsLines(style_)) return true;  // they would show the cuts
     MeshPlace place{instance.worldFromObject};
     for (int i = 0; i < 3; ++i) place.worldFromObject[i] *= item.mesh->balance[i];
+    place.isGouraud = isLit && style_.shading == scene::Shading::gouraud;
     place.isFlat = isLit && style_.shading == scene::Shading::flat;
     place.keepsParity = style_.shading == scene::Shading::chess;
     place.hasSurface = item.surface.has_value();

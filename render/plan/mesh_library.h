@@ -23,6 +23,13 @@ struct Box {
     }
 };
 
+/// The whole triangle that a vertex lies in, where light is worked out at its corners.
+struct LitCorners {
+    glm::vec3 positions[3];  ///< eye space
+    glm::vec3 normals[3];    ///< object space
+    glm::vec3 shares;        ///< the vertex's barycentric coordinates
+};
+
 /// A mesh with what the plan asks of it. `id` is unique in the process.
 struct MeshData {
     std::uint64_t id = 0;
@@ -34,6 +41,7 @@ struct MeshData {
     /// Where the vertices are for one viewer, eye space; empty: where their matrix puts them
     /// (near_mesh.h).
     std::vector<glm::vec3> eyePositions;
+    std::vector<LitCorners> litCorners;  ///< likewise of each vertex, for gouraud
     std::vector<glm::vec3> faceCenters;  ///< likewise the middle of each vertex's face, for flat
 };
 

@@ -67,6 +67,7 @@ struct Corner {
     dvec3 normal{0.0};
     dvec2 uv{0.0};
     glm::dvec4 color{0.0};
+    dvec3 share{0.0};           ///< barycentric, of the whole triangle
     std::uint32_t index = ~0U;  ///< of the mesh; none where an edge was cut
 };
 using Polygon = std::vector<Corner>;
@@ -217,6 +218,7 @@ class Placer {
         out.normal = from.normal + share * (to.normal - from.normal);
         out.uv = from.uv + share * (to.uv - from.uv);
         out.color = from.color + share * (to.color - from.color);
+        out.share = from.share + share * (to.share - from.share);
         return out;
     }
 
@@ -290,8 +292,17 @@ class Placer {
         return polygon;
     }
 
-    /// A face that is lit once keeps its own normal and middle in all of its pieces.
+    /// What pieces of a triangle know of the whole: its normal and middle where it is lit once, its
+    /// corners where it is lit at them.
     void startFace(const std::uint32_t* corner, Polygon& polygon) {
+        if (place_.isGouraud)
+            for (int k = 0; k < 3; ++k) {
+                Corner& one = polygon[static_cast<std::size_t>(k)];
+                corners_.positions[k] = glm::vec3(one.view);
+                corners_.normals[k] = glm::vec3(one.normal);
+                one.share[k] = 1.0;
+                one.index = ~0U;
+            }
         if (!place_.isFlat) return;
         std::array<dvec3, 3> at{};
         for (std::size_t k = 0; k < 3; ++k) at[k] = fromEye(corner[k]);
@@ -325,6 +336,10 @@ class Placer {
         eyePositions_.emplace_back(corner.view);
         if (!mesh_.normals().empty() || place_.isFlat) out_.normals.emplace_back(corner.normal);
         if (place_.isFlat) faceCenters_.emplace_back(center_);
+        if (place_.isGouraud) {
+            litCorners_.push_back(corners_);
+            litCorners_.back().shares = glm::vec3(corner.share);
+        }
         if (!mesh_.uvs().empty()) uvs_.push_back(corner.uv);
         if (!mesh_.colors().empty()) out_.colors.emplace_back(corner.color + 0.5);
         return index;
@@ -360,6 +375,7 @@ class Placer {
         for (const glm::vec3& position : out_.positions) data->bounds.add(dvec3(position));
         data->eyePositions = std::move(eyePositions_);
         data->faceCenters = std::move(faceCenters_);
+        data->litCorners = std::move(litCorners_);
         data->mesh = generator::Mesh(std::move(out_));
         return {std::move(data), eye_};
     }
@@ -381,6 +397,8 @@ class Placer {
     std::vector<dvec2> uvs_;
     std::vector<glm::vec3> eyePositions_, faceCenters_;
     dvec3 center_{0.0};
+    LitCorners corners_{};
+    std::vector<LitCorners> litCorners_;
     std::size_t partFirst_ = 0;
 };
 

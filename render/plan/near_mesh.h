@@ -14,6 +14,7 @@ namespace farol::render {
 struct MeshPlace {
     glm::dmat4 worldFromObject{1.0};
     bool isFlat = false;       ///< lit once a face
+    bool isGouraud = false;    ///< lit at the corners of the mesh's own triangles
     bool keepsParity = false;  ///< even and odd triangles look different
     bool hasSurface = false;   ///< pixels follow their rays to the exact surface
 };

@@ -19,10 +19,10 @@ std::string words(const glm::dvec3& p) {
     return text(p.x) + ' ' + text(p.y) + ' ' + text(p.z) + '\n';
 }
 
-/// A tetrahedron with coordinates in eighths, which far doubles hold.
-std::string objAt(const glm::dvec3& move, const glm::dvec2& turns = {}) {
+/// A tetrahedron with coordinates in eighths, which far doubles hold, times `scale`.
+std::string objAt(const glm::dvec3& move, const glm::dvec2& turns = {}, double scale = 1.0) {
     std::string out;
-    for (const glm::dvec3& p : kCorners) out += "v " + words(p + move);
+    for (const glm::dvec3& p : kCorners) out += "v " + words(scale * (p + move));
     for (const glm::dvec2& uv : {glm::dvec2(0, 0), {1, 0.125}, {0.5, 1}, {0.25, 0.5}})
         out += "vt " + text(uv.x + turns.x) + ' ' + text(uv.y + turns.y) + '\n';
     return out + "f 1/1 2/2 4/4\nf 2/2 3/3 4/4\nf 3/3 1/1 4/4\nf 2/2 1/1 3/3\n";
@@ -202,4 +202,17 @@ TEST_CASE("texgen offsets far from 0 draw what those at 0 do") {
     const glm::dvec3 move(0x1p20, -0x1p21, 0x1p22);
     CHECK(drawn(sceneOf(with(0.25, 0.5, "object"), move), {{"a.obj", objAt(move)}}).pixels ==
           expected.pixels);
+}
+
+TEST_CASE("meshes of any size in their files draw what those of size 1 do") {
+    const image::Image expected = drawn(sceneOf(textured("a.obj"), {}), {{"a.obj", objAt({})}});
+    for (const int exponent : {-100, -80, -60, -30, 30, 45, 59}) {
+        INFO("times 2^" << exponent);
+        // <scale> takes 1e18 at most: two of them.
+        const double half = std::exp2(-exponent / 2), rest = std::exp2(-exponent - -exponent / 2);
+        const std::string moves = "<transform><scale " + xyz(glm::dvec3(half)) + "/><scale " +
+                                  xyz(glm::dvec3(rest)) + "/></transform>";
+        const Files files{{"a.obj", objAt({}, {}, std::exp2(exponent))}};
+        CHECK(drawn(sceneOf(textured("a.obj"), {}, moves), files).pixels == expected.pixels);
+    }
 }

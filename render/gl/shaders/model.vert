@@ -1,9 +1,17 @@
 layout(location = 0) in vec3 positionObject;
 layout(location = 1) in vec3 normalObject;
 layout(location = 2) in vec2 uvIn;
-layout(location = 3) in vec3 centerObject;  // FLAT: the middle of the face
+#ifdef FLAT
+layout(location = 3) in vec3 centerObject;  // the middle of the face
+#endif
 #ifdef EYE_POSITIONS
 layout(location = 13) in vec3 positionEye;  // placed in double; positionObject: from the viewer
+#endif
+#if defined(EYE_POSITIONS) && defined(GOURAUD)
+// Of the whole triangle that this piece was cut from: it is lit at its own corners.
+layout(location = 3) in vec3 cornerPositions[3];
+layout(location = 6) in vec3 cornerNormals[3];
+layout(location = 9) in vec3 cornerShares;
 #endif
 #ifdef VERTEX_COLOR
 layout(location = 12) in vec4 colorIn;
@@ -101,7 +109,22 @@ void main() {
 #ifdef VERTEX_COLOR
     vertexColor = colorIn.rgb;
 #endif
-#if defined(GOURAUD) || defined(FLAT)
+#if defined(EYE_POSITIONS) && defined(GOURAUD)
+    modulated = vec3(0.0);
+#ifdef SEPARATE_SPECULAR
+    added = vec3(0.0);
+#endif
+    for (int k = 0; k < 3; ++k) {
+        vec3 normal = unitOr(normalFromObject * cornerNormals[k], vec3(0.0, 0.0, 1.0));
+        vec3 primary, secondary, first, second;
+        shade(clamp(cornerPositions[k], -1e18, 1e18), normal, primary, secondary);
+        finish(primary, secondary, first, second);
+        modulated += cornerShares[k] * first;
+#ifdef SEPARATE_SPECULAR
+        added += cornerShares[k] * second;
+#endif
+    }
+#elif defined(GOURAUD) || defined(FLAT)
 #ifdef FLAT
     position = viewFromObject * vec4(centerObject, 1.0);
 #endif

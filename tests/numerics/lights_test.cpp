@@ -111,7 +111,11 @@ Case random(Sweep& sweep) {
     out.options.viewer = sweep.chance(0.5) ? scene::Viewer::local : scene::Viewer::infinite;
     out.options.specular = sweep.chance(0.5) ? scene::Specular::single : scene::Specular::separate;
     out.options.samples = sweep.chance(0.5) ? 1 : 4;
-    out.isExact = out.options.shading == scene::Shading::phong && moves.empty();
+    // An exponent of the cosine multiplies what floats lose of it: such spots are looked at for
+    // NaN.
+    const bool isSharp = out.xml.find("exponent=") != std::string::npos;
+    out.isExact = !isSharp && out.options.samples == 1 &&
+                  out.options.shading == scene::Shading::phong && moves.empty();
     return out;
 }
 
@@ -121,12 +125,14 @@ std::string shadingName(const Case& one) {
                                                              : "flat";
 }
 
-/// The exact image; with `share` other than 0, lights are moved by that share of their distance.
-reference::Picture exact(const Case& random, double share) {
+/// The exact image; with `share` other than 0, lights are moved and turned by that share.
+reference::Picture exact(const Case& random, double share, const glm::dvec3& towards) {
     scene::Scene scene = scene::read(random.xml, {}, scene::BundleAssets()).scene;
-    for (scene::Light& light : scene.lights)
-        light.position += share * (glm::length(light.position) + glm::length(scene.camera->eye)) *
-                          glm::normalize(scene.camera->eye);
+    for (scene::Light& light : scene.lights) {
+        light.position +=
+            share * (glm::length(light.position) + glm::length(scene.camera->eye)) * towards;
+        light.direction += share * glm::length(light.direction) * towards;
+    }
     reference::Options options;
     options.width = options.height = kSide;
     options.viewer = *random.options.viewer;
@@ -163,9 +169,12 @@ TEST_CASE("no light and no material of finite numbers gives NaN or infinity") {
         if (black > 0 && ++bad <= 5)
             UNSCOPED_INFO(black << " px dark, " << shadingName(one) << ": " << one.xml);
         if (!one.isExact) continue;
-        const reference::Picture expected = exact(one, 0.0);
-        // A light within a float's rounding of a surface is on either side of it.
-        const reference::Picture moved[] = {exact(one, 1e-6), exact(one, -1e-6)};
+        const reference::Picture expected = exact(one, 0.0, {});
+        // A float's rounding puts a light on either side of a near surface or cone.
+        const reference::Picture moved[] = {
+            exact(one, 1e-6, {1, 0, 0}),  exact(one, 1e-6, {0, 1, 0}),
+            exact(one, -1e-6, {1, 0, 0}), exact(one, -1e-6, {0, 1, 0}),
+            exact(one, 1e-6, {0, 0, 1}),  exact(one, -1e-6, {0, 0, 1})};
         int here = 0;
         for (int y = 1; y + 1 < kSide; ++y)
             for (int x = 1; x + 1 < kSide; ++x) {
@@ -195,5 +204,5 @@ TEST_CASE("no light and no material of finite numbers gives NaN or infinity") {
         if (here > 0 && ++bad <= 5) UNSCOPED_INFO(here << " px off: " << one.xml);
     }
     CHECK((bad == 0 && off == 0));
-    CHECK(compared > 10 * sweep.cases());
+    CHECK(compared > sweep.cases());
 }

@@ -71,15 +71,32 @@ dvec3 normalDirection(const BezierPatch& p, double s, double t, bool& found) {
     return n;
 }
 
+/// The basis at index/count.
+Basis basisAt(std::size_t index, std::size_t count) {
+    const double n = static_cast<double>(count);
+    return {static_cast<double>(index) / n, static_cast<double>(count - index) / n};
+}
+
 }  // namespace
 
+dvec3 positionAt(const BezierPatch& patch, std::size_t column, std::size_t row, std::size_t columns,
+                 std::size_t rows) {
+    return pointAt(patch, basisAt(column, columns), basisAt(row, rows));
+}
+
+PatchBend bendAt(const BezierPatch& patch, std::size_t column, std::size_t row, std::size_t columns,
+                 std::size_t rows) {
+    const Basis u = basisAt(column, columns), v = basisAt(row, rows);
+    return {apply(patch, u.first, v.value), apply(patch, u.value, v.first),
+            apply(patch, u.second, v.value), apply(patch, u.first, v.first),
+            apply(patch, u.value, v.second)};
+}
+
 PatchPoint evaluate(const BezierPatch& patch, std::size_t column, std::size_t row,
-                    std::size_t level) {
-    const double n = static_cast<double>(level);
-    const double s = static_cast<double>(column) / n, t = static_cast<double>(row) / n;
-    const double sRest = static_cast<double>(level - column) / n;
-    const double tRest = static_cast<double>(level - row) / n;
-    PatchPoint out{pointAt(patch, Basis(s, sRest), Basis(t, tRest)), {0, 1, 0}};
+                    std::size_t columns, std::size_t rows) {
+    const double s = static_cast<double>(column) / static_cast<double>(columns);
+    const double t = static_cast<double>(row) / static_cast<double>(rows);
+    PatchPoint out{positionAt(patch, column, row, columns, rows), {0, 1, 0}};
     // Corners where two edges collapse: step towards the middle until the surface shows itself.
     bool found = false;
     for (const double step : {0.0, 1e-3, 1e-2, 0.1, 0.3}) {

@@ -66,6 +66,11 @@ struct ShapeEntry {
     /// their order, that keep the fineness. Null where the mesh is exact.
     std::vector<double> (*bound)(const ShapeCall& call, const std::string& fileBytes,
                                  const Fineness& fineness) = nullptr;
+    /// Makes the mesh that keeps the fineness, for a shape whose divisions differ from place to
+    /// place; adds to `divisions` all that distinguishes it. Null where the level arguments say
+    /// them.
+    Mesh (*adapt)(const ShapeCall& call, const std::string& fileBytes, const Fineness& fineness,
+                  std::vector<std::size_t>& divisions) = nullptr;
     /// The exact surface that the mesh stands for. Null where the mesh is exact, or no kind of
     /// surface has its form.
     Surface (*surface)(const ShapeCall& call, scene::UvLayout uv) = nullptr;

@@ -14,6 +14,8 @@ struct Fineness {
     /// The mesh will be scaled by balancedScale and then errs to both sides: chords may be twice
     /// as deep.
     bool balanced = false;
+    /// Texture coordinates are interpolated: `error` bounds how far they slide, too.
+    bool textured = false;
 };
 
 /// Most divisions that are chosen; finer wishes are capped.

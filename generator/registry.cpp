@@ -169,4 +169,13 @@ ShapeCall refine(const scene::Model& model, const scene::Assets& assets, const F
     return call;
 }
 
+std::optional<AdaptedMesh> adapt(const scene::Model& model, const scene::Assets& assets,
+                                 const Fineness& fineness) {
+    const ShapeCall call = callOf(model.source);
+    if (call.entry->adapt == nullptr) return std::nullopt;
+    std::vector<std::size_t> divisions;
+    Mesh mesh = call.entry->adapt(call, fileBytes(call, assets), fineness, divisions);
+    return AdaptedMesh{std::move(divisions), std::move(mesh)};
+}
+
 }  // namespace farol::generator

@@ -68,4 +68,15 @@ glm::dvec3 balancedScale(const ShapeCall& call);
 /// keep `fineness`; its file is where it was found. Throws as load does.
 ShapeCall refine(const scene::Model& model, const scene::Assets& assets, const Fineness& fineness);
 
+/// A mesh made by `adapt`; equal divisions of one file are equal meshes.
+struct AdaptedMesh {
+    std::vector<std::size_t> divisions;
+    Mesh mesh;
+};
+
+/// The mesh of an open model that keeps `fineness` with divisions that differ from place to place
+/// (patches); nothing for shapes whose arguments say them (refine). Throws as load does.
+std::optional<AdaptedMesh> adapt(const scene::Model& model, const scene::Assets& assets,
+                                 const Fineness& fineness);
+
 }  // namespace farol::generator

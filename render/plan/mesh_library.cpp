@@ -60,20 +60,37 @@ std::shared_ptr<const MeshData> MeshLibrary::get(const MeshData& coarse, const s
                                                  const scene::Assets& assets,
                                                  const generator::Fineness& fineness) {
     // All numbers stand on ladders.
-    const Key key{
-        {}, coarse.id, fineness.error, fineness.fullTurn, fineness.straightSide, fineness.balanced};
+    const Key key{{},
+                  coarse.id,
+                  fineness.error,
+                  fineness.fullTurn,
+                  fineness.straightSide,
+                  fineness.balanced,
+                  fineness.textured};
     if (const auto* kept = meshes_.find(key)) return *kept;
-    // Many wishes end in the same divisions: one mesh, so that its models can share a draw call.
-    const generator::ShapeCall call = generator::refine(model, assets, fineness);
-    Key made{generator::textOf(call), coarse.id};
-    made.balanced = fineness.balanced;
-    const auto* known = meshes_.find(made);
-    const std::shared_ptr<const MeshData> mesh =
-        known ? *known
-              : keep(made, generator::generate(call, assets, model.uv), {},
-                     fineness.balanced ? &call : nullptr);
+    const std::shared_ptr<const MeshData> mesh = refined(coarse.id, model, assets, fineness);
     // Counted under each of its names, so that the bound is kept.
     return meshes_.put(key, mesh, bytesOf(*mesh));
+}
+
+std::shared_ptr<const MeshData> MeshLibrary::refined(std::uint64_t coarse,
+                                                     const scene::Model& model,
+                                                     const scene::Assets& assets,
+                                                     const generator::Fineness& fineness) {
+    // Many wishes end in the same divisions: one mesh, so that its models can share a draw call.
+    if (auto adapted = generator::adapt(model, assets, fineness)) {
+        Key made{{}, coarse};
+        for (const std::size_t level : adapted->divisions)
+            made.source += std::to_string(level) + ' ';
+        if (const auto* known = meshes_.find(made)) return *known;
+        return keep(made, std::move(adapted->mesh));
+    }
+    const generator::ShapeCall call = generator::refine(model, assets, fineness);
+    Key made{generator::textOf(call), coarse};
+    made.balanced = fineness.balanced;
+    if (const auto* known = meshes_.find(made)) return *known;
+    return keep(made, generator::generate(call, assets, model.uv), {},
+                fineness.balanced ? &call : nullptr);
 }
 
 }  // namespace farol::render

@@ -69,9 +69,13 @@ class MeshLibrary {
         std::string source;
         std::uint64_t coarse = 0;
         double error = 0.0, fullTurn = 0.0, straightSide = 0.0;
-        bool balanced = false;
+        bool balanced = false, textured = false;
         auto operator<=>(const Key&) const = default;
     };
+    /// `coarse`: MeshData::id.
+    std::shared_ptr<const MeshData> refined(std::uint64_t coarse, const scene::Model& model,
+                                            const scene::Assets& assets,
+                                            const generator::Fineness& fineness);
     std::shared_ptr<const MeshData> keep(const Key& key, generator::Mesh mesh,
                                          Diagnostics findings = {},
                                          const generator::ShapeCall* balanced = nullptr);

@@ -137,6 +137,7 @@ generator::Fineness fineness(const Box& bounds, const glm::dmat4& viewFromObject
     const double errorObject = errorView / std::max(1e-300, largest);
 
     generator::Fineness fine{};
+    fine.textured = textured;
     fine.error = std::exp2(std::floor(4.0 * std::log2(errorObject)) / 4.0);
     if (seen && !seen->surface.kind->hasProfile) {
         fine.fullTurn = 8.0;

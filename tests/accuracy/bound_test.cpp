@@ -49,6 +49,42 @@ double cubic(int i, double t) {
     return kChoose[static_cast<std::size_t>(i)] * std::pow(t, i) * std::pow(1.0 - t, 3 - i);
 }
 
+double cubicRate(int i, double t) {
+    const double low = i > 0 ? std::pow(t, i - 1) * std::pow(1.0 - t, 3 - i) * i : 0.0;
+    const double high = i < 3 ? std::pow(t, i) * std::pow(1.0 - t, 2 - i) * (3 - i) : 0.0;
+    return (i == 1 || i == 2 ? 3.0 : 1.0) * (low - high);
+}
+
+/// A point of the patch near `target`, from the parameters (s, t) on: each step goes to the nearest
+/// point of the tangent plane.
+dvec3 patchFoot(const std::array<dvec3, 16>& net, const dvec3& target, double s, double t) {
+    dvec3 best(0.0);
+    double least = 1e300;
+    for (int step = 0; step < 8; ++step) {
+        dvec3 q(0.0), u(0.0), v(0.0);
+        for (int i = 0; i < 16; ++i) {
+            const dvec3& point = net[static_cast<std::size_t>(i)];
+            q += cubic(i / 4, t) * cubic(i % 4, s) * point;
+            u += cubic(i / 4, t) * cubicRate(i % 4, s) * point;
+            v += cubicRate(i / 4, t) * cubic(i % 4, s) * point;
+        }
+        if (glm::length(q - target) < least) {
+            least = glm::length(q - target);
+            best = q;
+        }
+        const dvec3 d = target - q;
+        const double uu = glm::dot(u, u), uv = glm::dot(u, v), vv = glm::dot(v, v);
+        const double det = uu * vv - uv * uv;
+        if (!(det > 1e-12 * uu * vv)) break;
+        const double before = s;
+        s = std::clamp(s + (glm::dot(d, u) * vv - glm::dot(d, v) * uv) / det, 0.0, 1.0);
+        // Beside the patch, the nearest point of its outline.
+        t = std::clamp(t + glm::dot(d - (s - before) * u, v) / vv, 0.0, 1.0);
+        if (t == 0.0 || t == 1.0) s = std::clamp(before + glm::dot(d, u) / uu, 0.0, 1.0);
+    }
+    return best;
+}
+
 class Lottery {
   public:
     explicit Lottery(unsigned seed) : random_(seed) {}
@@ -286,10 +322,7 @@ double worstPx(const Subject& subject, const render::FramePlan& plan, Lottery& l
             if (std::abs(at.x) > half.x || std::abs(at.y) > half.y) continue;
             dvec3 exact = seen;
             if (subject.name == "patch") {
-                dvec3 q(0.0);
-                for (int i = 0; i < 16; ++i)
-                    q += cubic(i / 4, 1.0 - uv.y) * cubic(i % 4, 1.0 - uv.x) *
-                         subject.net[static_cast<std::size_t>(i)];
+                const dvec3 q = patchFoot(subject.net, p, 1.0 - uv.x, 1.0 - uv.y);
                 exact = dvec3(viewFromObject * glm::dvec4(q, 1.0));
             } else if (flat && subject.capRadius) {
                 const double most = subject.capRadius(p.y), r = std::hypot(p.x, p.z);

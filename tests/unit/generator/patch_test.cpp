@@ -62,7 +62,7 @@ TEST_CASE("neighbouring patches meet bit for bit, whichever way their edge runs"
     }
     for (std::size_t k = 0; k < 4; ++k) b[4 * k] = a[12 + 3 - k];  // a's last row, reversed
     for (std::size_t i = 0; i <= 7; ++i)
-        CHECK(evaluate(a, i, 7, 7).position == evaluate(b, 0, 7 - i, 7).position);
+        CHECK(evaluate(a, i, 7, 7, 7).position == evaluate(b, 0, 7 - i, 7, 7).position);
 }
 
 TEST_CASE("normals at a collapsed edge are the limit from inside") {
@@ -77,11 +77,11 @@ TEST_CASE("normals at a collapsed edge are the limit from inside") {
         cap[12 + c] = rim[c];
     }
     for (std::size_t c = 0; c <= 8; ++c) {
-        const dvec3 atPole = evaluate(cap, c, 0, 8).normal;
-        const dvec3 nearby = evaluate(cap, c * 100, 1, 800).normal;
+        const dvec3 atPole = evaluate(cap, c, 0, 8, 8).normal;
+        const dvec3 nearby = evaluate(cap, c * 100, 1, 800, 800).normal;
         CHECK(glm::length(atPole - dvec3(0, 0, 1)) < 1e-9);
         CHECK(glm::length(atPole - nearby) < 0.02);
     }
     BezierPatch point{};  // a patch without extent has no normal
-    CHECK(evaluate(point, 1, 1, 2).normal == dvec3(0, 1, 0));
+    CHECK(evaluate(point, 1, 1, 2, 2).normal == dvec3(0, 1, 0));
 }

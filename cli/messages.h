@@ -37,6 +37,10 @@ inline constexpr MessageRow kCliMessages[] = {
     {"limit.bundle/submission",
      "the submission is larger than {max} MiB; expected a scene with its own files only",
      {"64"}},
+    {"limit.deadline",
+     "takes longer than --deadline ({seconds} s); raise it, or give fewer models, pixels or "
+     "samples",
+     {"10"}},
     {"limit.file-bytes", "is larger than {max} MiB; expected a smaller file", {"256"}},
     {"limit.memory/command",
      "needs more memory than --worker-memory allows ({max} MiB); raise it or use smaller files",

@@ -7,6 +7,7 @@
 #include "cli/animation.h"
 #include "cli/command.h"
 #include "cli/confine.h"
+#include "cli/deadline.h"
 #include "cli/files.h"
 #include "cli/messages.h"
 #include "cli/source.h"
@@ -23,6 +24,7 @@ struct Flags {
     AnimationFlags animation;
     ConfinementFlags confinement;
     bool strict = false, stats = false, verbose = false;
+    double deadlineS = 0.0;                                    ///< 0: none
     std::vector<std::pair<std::string, std::string>> picture;  ///< options in the order given
 };
 
@@ -70,6 +72,7 @@ void printMissing(const worker::Layers& layers) {
 }
 
 int draw(const Flags& flags, const render::Job& job, Report& report, Outputs& outputs) {
+    Deadline deadline(flags.deadlineS, report, job.name);
     render::Picture picture;
     if (flags.animation.isAnyGiven()) {
         const Schedule moments = schedule(flags.animation, render::inspect(job), job.options.timeS);
@@ -78,6 +81,7 @@ int draw(const Flags& flags, const render::Job& job, Report& report, Outputs& ou
         report.set("fps", moments.fps);
     } else {
         picture = render::Renderer().render(job);
+        deadline.release();
         outputs.write(0, picture.bytes);
     }
     report.add(picture.diagnostics);
@@ -142,6 +146,9 @@ void addRender(CLI::App& root, Action& action) {
     CLI::Option* fps =
         command->add_option("--fps", flags->animation.fps,
                             "frames a second; without --frames as many as make one loop");
+    takesNumber(command->add_option("--deadline", flags->deadlineS,
+                                    "ends with limit.deadline after that many s; 0: no deadline"),
+                0.0, 86'400.0);
     addConfinement(*command, flags->confinement);
     takesNumber(frames->group("Animation"), 1, 3600);
     takesNumber(fps->group("Animation"), 0.01, 1000.0);

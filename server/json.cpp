@@ -70,6 +70,10 @@ json toJson(const render::Stats& stats) {
             {"culledGroups", stats.culledGroups},
             {"betweenSamples", stats.betweenSamples},
             {"texturesSkipped", stats.texturesSkipped},
+            {"coarsened", stats.coarsened},
+            {"coarsening", stats.coarsening},
+            {"coplanar", stats.coplanar},
+            {"refined", stats.refined},
             {"lightsSkipped", stats.lightsSkipped}};
 }
 

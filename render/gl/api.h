@@ -65,6 +65,7 @@ namespace farol::render::gl {
     X(PixelStorei, PFNGLPIXELSTOREIPROC)                                             \
     X(PointSize, PFNGLPOINTSIZEPROC)                                                 \
     X(PolygonMode, PFNGLPOLYGONMODEPROC)                                             \
+    X(PolygonOffset, PFNGLPOLYGONOFFSETPROC)                                         \
     X(ReadPixels, PFNGLREADPIXELSPROC)                                               \
     X(RenderbufferStorageMultisample, PFNGLRENDERBUFFERSTORAGEMULTISAMPLEPROC)       \
     X(Scissor, PFNGLSCISSORPROC)                                                     \

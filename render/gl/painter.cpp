@@ -122,6 +122,7 @@ struct Painter::State {
         api.Enable(GL_DEPTH_TEST);
         api.DepthMask(GL_TRUE);
         api.DepthFunc(GL_GREATER);
+        api.Disable(GL_POLYGON_OFFSET_FILL);
         api.FrontFace(GL_CCW);
         api.PolygonMode(GL_FRONT_AND_BACK, GL_FILL);
         mean.drop();
@@ -141,6 +142,7 @@ struct Painter::State {
                       int& drawCalls);
     void drawOne(const DrawItem& item, const GpuMesh& mesh, const LinkedProgram& program);
     Target::Resolver resolver(int samples);
+    void setDepthRank(int rank);
     void setLights(const DrawItem& item, int count, const LinkedProgram& program);
     void setScale(const Pass& pass, const LinkedProgram& program);
     void setMaterial(const FramePlan& plan, const DrawItem& item, const LinkedProgram& program);
@@ -249,6 +251,15 @@ void Painter::State::setLights(const DrawItem& item, int count, const LinkedProg
     if (program.lightCount >= 0) api.Uniform1i(program.lightCount, count);
 }
 
+/// Moves what is drawn behind what lies in its plane: by what snapped vertices and rounding can
+/// move either.
+void Painter::State::setDepthRank(int rank) {
+    if (rank == 0) return api.Disable(GL_POLYGON_OFFSET_FILL);
+    const auto steps = static_cast<float>(-rank);  // smaller is farther
+    api.Enable(GL_POLYGON_OFFSET_FILL);
+    api.PolygonOffset(steps * static_cast<float>(2.0 * facts.snapPx), steps * 16.0F);
+}
+
 void Painter::State::setScale(const Pass& pass, const LinkedProgram& program) {
     if (program.samplesAcross >= 0)
         api.Uniform1f(program.samplesAcross, static_cast<float>(pass.target.scale));
@@ -321,6 +332,7 @@ void Painter::State::drawModels(const FramePlan& plan, const Pass& pass, const P
         if (first.texture >= 0)
             api.BindTexture(GL_TEXTURE_2D, textureNames[static_cast<std::size_t>(first.texture)]);
         api.FrontFace(first.mirrored ? GL_CW : GL_CCW);
+        setDepthRank(first.depthRank);
         const GpuMesh& mesh = meshes.get(*first.mesh, flat);
         api.BindVertexArray(mesh.array.name());
         if (batch.instanced) {
@@ -338,6 +350,7 @@ void Painter::State::drawModels(const FramePlan& plan, const Pass& pass, const P
         for (std::size_t i = batch.first; i < batch.first + batch.count; ++i, ++drawCalls)
             drawOne(plan.items[plan.batches.order[i]], mesh, program);
     }
+    setDepthRank(0);
     api.FrontFace(GL_CCW);
     api.PolygonMode(GL_FRONT_AND_BACK, GL_FILL);
 }

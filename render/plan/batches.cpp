@@ -15,17 +15,10 @@ bool sameSurface(const DrawItem& a, const DrawItem& b) {
     return *a.surface == *b.surface && a.unitFromObject == b.unitFromObject;
 }
 
-bool sameMaterial(const DrawItem& a, const DrawItem& b) {
-    return a.diffuse == b.diffuse && a.ambient == b.ambient && a.specular == b.specular &&
-           a.emissive == b.emissive && a.shininess == b.shininess && a.texture == b.texture &&
-           a.mapping == b.mapping && a.planeS == b.planeS && a.planeT == b.planeT &&
-           a.uvFrom == b.uvFrom && a.colored == b.colored;
-}
-
 bool sameButPlace(const DrawItem& a, const DrawItem& b) {
     return a.mesh->id == b.mesh->id && a.firstIndex == b.firstIndex && a.inside == b.inside &&
-           a.mirrored == b.mirrored && a.lightSet == b.lightSet && sameSurface(a, b) &&
-           sameMaterial(a, b);
+           a.mirrored == b.mirrored && a.lightSet == b.lightSet && a.depthRank == b.depthRank &&
+           sameSurface(a, b) && sameMaterial(a, b);
 }
 
 /// Where a model can be seen: pixels, and distance along the view. None where it reaches the
@@ -167,6 +160,13 @@ class Arranger {
 };
 
 }  // namespace
+
+bool sameMaterial(const DrawItem& a, const DrawItem& b) {
+    return a.diffuse == b.diffuse && a.ambient == b.ambient && a.specular == b.specular &&
+           a.emissive == b.emissive && a.shininess == b.shininess && a.texture == b.texture &&
+           a.mapping == b.mapping && a.planeS == b.planeS && a.planeT == b.planeT &&
+           a.uvFrom == b.uvFrom && a.colored == b.colored;
+}
 
 Batches batchesOf(const std::vector<DrawItem>& items, const ViewTransform& view, bool merge) {
     return Arranger(items, view, merge).run();

@@ -10,6 +10,9 @@ namespace farol::render {
 /// The smallest batch that is one instanced call: fewer do not pay for its shader.
 inline constexpr std::size_t kMinInstances = 8;
 
+/// True where two models have the same material and texture, laid out alike.
+bool sameMaterial(const DrawItem& a, const DrawItem& b);
+
 /// Orders all items. Where two surfaces lie in one place the first of the document wins: a model
 /// moves up to its likes only past models that it cannot meet, since no pixel is theirs in common
 /// or their distances differ. Without `merge` each item is a batch.

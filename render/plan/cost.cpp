@@ -23,16 +23,6 @@ constexpr double kTriangleCost = 0.25e-6, kLineCost = 1.5e-6;  // of a pass
 constexpr double kCallCost = 15e-6;                            // of a pass
 constexpr double kLineWidth = 4.0;  // px that a line's fragments are counted as
 
-/// Area that a box covers in the picture, px; all of it where the box reaches the eye.
-double coveredArea(const Box& box, const glm::dmat4& viewFromObject, const ViewTransform& view) {
-    const glm::dvec2 size(view.size);
-    const std::optional<PixelRect> rect = pixelRect(box, viewFromObject, view);
-    if (!rect) return size.x * size.y;
-    const glm::dvec2 side =
-        glm::clamp(rect->max, glm::dvec2(0.0), size) - glm::clamp(rect->min, glm::dvec2(0.0), size);
-    return std::max(0.0, side.x) * std::max(0.0, side.y);
-}
-
 /// How many layers of triangles a mesh has before each other, about: 1 for closed shapes.
 double layersOf(const MeshData& data) {
     const generator::Mesh& mesh = data.mesh;
@@ -126,8 +116,10 @@ FrameCost estimateCost(const FramePlan& plan) {
         // A part of a mesh covers its share of it, about.
         const auto whole =
             static_cast<double>(std::max<std::size_t>(1, item.mesh->mesh.triangles()));
-        double area = coveredArea(item.mesh->bounds, glm::dmat4(item.viewFromObject), plan.view) *
-                      (triangles / whole);
+        double area =
+            coveredArea(pixelRect(item.mesh->bounds, glm::dmat4(item.viewFromObject), plan.view),
+                        plan.view.size) *
+            (triangles / whole);
         if (share.outlines > 0.0) {
             // Three sides of triangles that share the area.
             area = std::min(3.0 * kLineWidth * std::sqrt(triangles * area), 3.0 * pixels);

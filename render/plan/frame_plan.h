@@ -42,6 +42,7 @@ struct DrawItem {
     bool colored = false;                      ///< by the mesh's own colours
     std::size_t firstIndex = 0, indices = 0;   ///< the part of the mesh that is drawn
     int lightSet = 0;                          ///< index into FramePlan::lightSets
+    int depthRank = 0;                         ///< so many steps behind (coplanar.h)
     std::uint32_t id = 0;                      ///< 1.. in document order, for layer=id
 };
 

@@ -65,6 +65,14 @@ std::optional<PixelRect> pixelRect(const Box& box, const glm::dmat4& viewFromObj
     return rect;
 }
 
+double coveredArea(const std::optional<PixelRect>& rect, const glm::ivec2& size) {
+    const glm::dvec2 whole(size);
+    if (!rect) return whole.x * whole.y;
+    const glm::dvec2 side = glm::clamp(rect->max, glm::dvec2(0.0), whole) -
+                            glm::clamp(rect->min, glm::dvec2(0.0), whole);
+    return std::max(0.0, side.x) * std::max(0.0, side.y);
+}
+
 bool isOutside(const Box& box, const glm::dmat4& viewFromObject, const ViewTransform& view,
                double errorPx) {
     const double marginPx = cullingMarginPx(errorPx);

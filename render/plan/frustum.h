@@ -53,6 +53,9 @@ struct PixelRect {
 std::optional<PixelRect> pixelRect(const Box& box, const glm::dmat4& viewFromObject,
                                    const ViewTransform& view);
 
+/// Area of the picture within the rectangle, px; all of it where there is none.
+double coveredArea(const std::optional<PixelRect>& rect, const glm::ivec2& size);
+
 /// True if the whole box (object space) is beyond one side of the view, with the margins of a mesh
 /// that stands out of its shape by up to `errorPx`.
 bool isOutside(const Box& box, const glm::dmat4& viewFromObject, const ViewTransform& view,

@@ -3,6 +3,8 @@
 #include <atomic>
 #include <utility>
 
+#include "render/plan/coplanar.h"
+
 namespace farol::render {
 namespace {
 
@@ -43,6 +45,7 @@ std::shared_ptr<const MeshData> MeshLibrary::keep(const Key& key, generator::Mes
     }
     data->findings = std::move(findings);
     for (const glm::vec3& position : data->mesh.positions()) data->bounds.add(glm::dvec3(position));
+    data->flats = flatFacesOf(data->mesh);
     const std::size_t bytes = bytesOf(*data);
     return meshes_.put(key, std::move(data), bytes);
 }

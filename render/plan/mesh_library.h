@@ -1,9 +1,11 @@
 #pragma once
 
+#include <array>
 #include <compare>
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "core/lru_cache.h"
 #include "generator/mesh.h"
@@ -30,6 +32,12 @@ struct LitCorners {
     glm::vec3 shares;        ///< the vertex's barycentric coordinates
 };
 
+/// Triangles of a mesh that lie in one plane: a rectangle round them, object space, corners in
+/// turn, counter-clockwise as seen from their front.
+struct FlatFace {
+    std::array<glm::dvec3, 4> corners;
+};
+
 /// A mesh with what the plan asks of it. `id` is unique in the process.
 struct MeshData {
     std::uint64_t id = 0;
@@ -37,7 +45,8 @@ struct MeshData {
     Box bounds;               ///< object space
     glm::dvec3 balance{1.0};  ///< generator::balancedScale, where the mesh was asked to be balanced
     double fullTurn = 0.0;    ///< generator::fullTurnOf, likewise
-    Diagnostics findings;     ///< repairs of its file
+    std::vector<FlatFace> flats;  ///< its large flat parts (coplanar.h)
+    Diagnostics findings;         ///< repairs of its file
     /// Where the vertices are for one viewer, eye space; empty: where their matrix puts them
     /// (near_mesh.h).
     std::vector<glm::vec3> eyePositions;

@@ -6,6 +6,9 @@
 #include "render/plan/background.h"
 #include "render/plan/camera.h"
 #include "render/plan/choose_mesh.h"
+#include "render/plan/close_surfaces.h"
+#include "render/plan/coplanar.h"
+#include "render/plan/crowd.h"
 #include "render/plan/frustum.h"
 #include "render/plan/light_reach.h"
 #include "render/plan/lines.h"
@@ -24,9 +27,6 @@ int defaultSamples(double errorPx) {
     return errorPx >= 1.0 ? 1 : errorPx > 0.08 ? 4 : errorPx > 0.03 ? 8 : 16;
 }
 
-/// Triangles of a frame from which on meshes are drawn as coarse as they come: copies that all fill
-/// the view would each be fine enough for it, and a frame take minutes. Some seconds' worth.
-constexpr std::int64_t kMaxRefinedTriangles = 16'000'000;
 // Where the third-person camera holds its entity: in front of the eye, in eye space.
 constexpr glm::dvec3 kEntityPlace{0.0, 0.0, -3.0};
 // Half the diagonal of a sheared box is at most sqrt(3) times the root of its squared edges.
@@ -58,16 +58,18 @@ class Planner {
   public:
     Planner(const scene::Scene& scene, const Placed& placed, const PictureOptions& options,
             const scene::Assets& assets, MeshLibrary& meshes, const GlFacts& gl,
-            const Skipping& skipping)
+            const Skipping& skipping, const Crowd& crowd)
         : scene_(scene),
           placed_(placed),
           options_(options),
           assets_(assets),
           meshes_(meshes),
           gl_(gl),
-          skipping_(skipping) {}
+          skipping_(skipping),
+          crowd_(crowd) {}
 
-    FramePlan run() {
+    /// Returns nothing where the models are too many: `next` is then the crowd to try.
+    std::optional<FramePlan> run(Crowd& next) {
         const glm::ivec2 size = pictureSize(scene_, options_);
         if (std::max(size.x, size.y) > gl_.maxTargetSide) failSize(size, gl_.maxTargetSide);
         style_.mergesCalls = skipping_.calls;
@@ -82,11 +84,23 @@ class Planner {
         plan_.findings = list.findings;
         addInstances(scene_, list, plan_.view, {});
         if (placed_.entity) addEntity();
+        if (isOverBudget()) {
+            next.coarsening *= 4.0;
+            return std::nullopt;
+        }
+        const double layers = coveredPx_ / (static_cast<double>(size.x) * size.y);
+        if (layers > kMaxLayers && mayThinSamples()) {
+            next.isOneSample = true;
+            return std::nullopt;
+        }
+        plan_.stats.coarsening = crowd_.coarsening;
+        if (!drawsLines(style_)) plan_.stats.coplanar = coplanar_.rank(plan_.items, style_);
+        sortCrowd(plan_.items, layers);
         if (style_.layer == Layer::color) addLines(plan_, scene_, list, options_);
         addBackground();
         plan_.stats.textures = static_cast<int>(plan_.textures.size());
         composePasses(plan_, gl_);
-        return std::move(plan_);
+        return std::optional<FramePlan>(std::move(plan_));
     }
 
   private:
@@ -102,6 +116,8 @@ class Planner {
         // More samples than four are asked for to see outlines better: a mesh that errs by more
         // than they tell apart would waste them. `error` bounds from above, so less is allowed.
         if (style_.samples > 4) errorPx_ = std::min(errorPx_, 1.0 / style_.samples);
+        if (crowd_.isOneSample) style_.samples = 1;
+        errorPx_ *= crowd_.coarsening;
         const bool surface = style_.shading == scene::Shading::flat ||
                              style_.shading == scene::Shading::gouraud ||
                              style_.shading == scene::Shading::phong;
@@ -129,11 +145,12 @@ class Planner {
         plan_.stats.instances += static_cast<int>(list.instances.size());
         const scene::Material undressed = scene::defaultMaterial(scene.dialect);
         textureOf_.assign(list.textures.size(), -1);
+        close_ = closeSurfaces(list);
         const auto outside =
             std::count(found.sides.begin(), found.sides.end(), Frustum::Side::outside);
         plan_.items.reserve(plan_.items.size() + found.sides.size() -
                             static_cast<std::size_t>(outside));
-        for (std::size_t i = 0; i < list.instances.size(); ++i) {
+        for (std::size_t i = 0; i < list.instances.size() && !isOverBudget(); ++i) {
             // Whether they are seen stands apart: what is not seen is not touched.
             if (found.sides[i] != Frustum::Side::outside || !skipping_.outside)
                 add(list, i, view, found.sides[i], firstSet, firstId, undressed);
@@ -167,15 +184,32 @@ class Planner {
         plan_.stats.lights += static_cast<int>(list.lights.size());
     }
 
+    bool isOverBudget() const {
+        return crowd_.coarsening < kMostCoarsening &&
+               openTriangles_ > triangleBudget(plan_.view.size);
+    }
+
+    bool mayThinSamples() const {
+        return style_.samples > 1 && !options_.samples && !scene_.settings.samples;
+    }
+
+    /// Counts a model in view towards the crowd's size.
+    void count(const DrawItem& item, const glm::dmat4& viewFromObject, bool isOpen) {
+        if (!drawsLines(style_))
+            coveredPx_ += coveredArea(pixelRect(item.mesh->bounds, viewFromObject, plan_.view),
+                                      plan_.view.size);
+        if (!isOpen) return;
+        openTriangles_ += static_cast<std::int64_t>(item.mesh->mesh.triangles());
+        if (crowd_.coarsening > 1.0) ++plan_.stats.coarsened;
+    }
+
     /// How far a mesh may stand out of its shape, px: only those made on demand do.
     double standOutPx(bool open) const { return open ? errorPx_ : 0.0; }
 
     /// True if no sample of the picture can lie on what the box holds. (Points and lines reach
     /// past their geometry.)
     bool betweenSamples(const Box& box, const glm::dmat4& viewFromObject) const {
-        if (!skipping_.betweenSamples || style_.shading == scene::Shading::wireframe ||
-            style_.shading == scene::Shading::points)
-            return false;
+        if (drawsLines(style_)) return false;
         const std::optional<PixelRect> rect = pixelRect(box, viewFromObject, plan_.view);
         return rect && missesSamples(*rect, samples_, snapPx_);
     }
@@ -192,21 +226,30 @@ class Planner {
         viewFromObject[3] =
             glm::dvec4(view.eyeFromWorld(glm::dvec3(instance.worldFromObject[3])), 1.0);
         // The model's own box fits closer than that along the world's axes.
-        if (skipping_.outside && side == Frustum::Side::straddles &&
-            isOutside(instance.mesh->bounds, viewFromObject, view, standOutPx(instance.open))) {
+        const bool isSeen =
+            side == Frustum::Side::inside ||
+            (side == Frustum::Side::straddles &&
+             !isOutside(instance.mesh->bounds, viewFromObject, view, standOutPx(instance.open)));
+        if (skipping_.outside && !isSeen) {
             ++plan_.stats.culled;
             return;
         }
         const scene::Model& model = *instance.model;
         DrawItem item;
         item.mesh = instance.mesh;
-        if (instance.open && plan_.stats.triangles < kMaxRefinedTriangles)
-            choice_.refine(item, instance, list, view, viewFromObject);
+        if (instance.open && choice_.refine(item, instance, list, view, viewFromObject,
+                                            close_.empty() ? Closeness{} : close_[index]))
+            ++plan_.stats.refined;
         // Only now is it known how far the mesh reaches: balanced ones stand out of their surface.
-        if (betweenSamples(item.mesh->bounds, viewFromObject)) {
+        const bool isMissed = betweenSamples(item.mesh->bounds, viewFromObject);
+        if (isMissed && skipping_.betweenSamples) {
             ++plan_.stats.betweenSamples;
             return;
         }
+        // What is drawn although nobody sees it changes nothing of the rest.
+        const std::shared_ptr<const MeshData> whole = isSeen && !isMissed ? item.mesh : nullptr;
+        const glm::dmat4 placed = viewFromObject;
+        if (whole) count(item, viewFromObject, instance.open);
         if (!choice_.placeNear(item, instance, view, viewFromObject)) {
             ++plan_.stats.culled;
             return;
@@ -245,14 +288,16 @@ class Planner {
                 item.firstIndex = parts[i].first;
                 item.indices = parts[i].count;
                 fillPart(item, list, static_cast<std::size_t>(instance.looks) + i, undressed);
-                push(item, model.twoSided);
+                push(item, model.twoSided, whole.get(), placed);
             }
             return;
         }
-        push(std::move(item), model.twoSided);
+        push(std::move(item), model.twoSided, whole.get(), placed);
     }
 
-    void push(DrawItem item, bool twoSided) {
+    /// `whole`: the mesh of a model in view before it was placed in double, which stands at
+    /// `placed` in eye space; else null.
+    void push(DrawItem item, bool twoSided, const MeshData* whole, const glm::dmat4& placed) {
         plan_.stats.triangles += static_cast<std::int64_t>(item.indices / 3);
         if (twoSided) {
             DrawItem back = item;
@@ -260,8 +305,10 @@ class Planner {
             back.inside = true;
             back.normalFromObject = -back.normalFromObject;
             plan_.stats.triangles += static_cast<std::int64_t>(item.indices / 3);
+            if (whole != nullptr) coplanar_.add(*whole, placed, back, plan_.items.size());
             plan_.items.push_back(std::move(back));
         }
+        if (whole != nullptr) coplanar_.add(*whole, placed, item, plan_.items.size());
         plan_.items.push_back(std::move(item));
     }
 
@@ -372,12 +419,17 @@ class Planner {
     MeshLibrary& meshes_;
     const GlFacts& gl_;
     const Skipping& skipping_;
+    const Crowd& crowd_;
     FramePlan plan_;
     FrameStyle& style_ = plan_.style;
     double errorPx_ = options_.errorPx.value_or(kDefaultErrorPx);
     SamplePattern samples_;
     double snapPx_ = 0.0;  ///< of the image
     ReachedLights reached_{plan_.lightSets};
+    std::int64_t openTriangles_ = 0;  ///< of open shapes in view
+    double coveredPx_ = 0.0;          ///< by the models' boxes
+    CoplanarFaces coplanar_;
+    std::vector<Closeness> close_;  ///< of the list's instances, or empty
     MeshChoice choice_{style_, errorPx_, assets_, meshes_, plan_.findings};
     std::vector<int> textureOf_;  ///< of an InstanceList, in plan_.textures
 };
@@ -399,7 +451,12 @@ glm::ivec2 pictureSize(const scene::Scene& scene, const PictureOptions& options)
 FramePlan plan(const scene::Scene& scene, const Placed& placed, const PictureOptions& options,
                const scene::Assets& assets, MeshLibrary& meshes, const GlFacts& gl,
                const Skipping& skipping) {
-    return Planner(scene, placed, options, assets, meshes, gl, skipping).run();
+    for (Crowd crowd;;) {
+        const Crowd tried = crowd;
+        std::optional<FramePlan> made =
+            Planner(scene, placed, options, assets, meshes, gl, skipping, tried).run(crowd);
+        if (made) return std::move(*made);
+    }
 }
 
 }  // namespace farol::render

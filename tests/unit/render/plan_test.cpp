@@ -4,6 +4,7 @@
 #include <cmath>
 #include <random>
 
+#include "render/plan/crowd.h"
 #include "tests/support/plan_scene.h"
 
 using namespace farol;
@@ -202,7 +203,7 @@ TEST_CASE("tessellation on demand is bounded over all copies, not for each alone
     fine.width = fine.height = 4096;
     fine.errorPx = 0.01;
     const std::int64_t alone = planOf(scene, fine).stats.triangles;
-    const std::int64_t bound = 16'000'000;
+    const std::int64_t bound = render::triangleBudget({4096, 4096});
     constexpr int kCopies = 3000;
     REQUIRE(alone * kCopies > 2 * bound);
     scene::Scatter heap;
@@ -210,6 +211,8 @@ TEST_CASE("tessellation on demand is bounded over all copies, not for each alone
     scene.groups[0].scatter = heap;
     const FramePlan plan = planOf(scene, fine);
     CHECK(plan.items.size() == kCopies);
-    CHECK(plan.stats.triangles > bound);
-    CHECK(plan.stats.triangles < bound + alone + kCopies * 1000);  // coarse spheres have 960
+    CHECK(plan.stats.triangles <= bound);
+    CHECK(plan.stats.triangles > bound / 32);  // coarsened by no more than needed, in steps of four
+    CHECK(plan.stats.coarsening > 1.0);
+    CHECK(plan.stats.coarsened == kCopies);
 }

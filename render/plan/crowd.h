@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "render/plan/frame_plan.h"
+
+/// What keeps the cost of a frame within its pixels, however many models stand in it.
+namespace farol::render {
+
+/// What a frame gives up because it holds more than its pixels can show.
+struct Crowd {
+    double coarsening = 1.0;   ///< the error of open shapes is so many times what was asked for
+    bool isOneSample = false;  ///< one sample a pixel where nobody chose their number
+};
+
+/// Coarsest that a crowd gets: beyond it shapes are as coarse as they come.
+inline constexpr double kMostCoarsening = 1024.0;
+/// Layers of models' boxes over the whole image from which on a pixel gets one sample: four cost
+/// up to seven times as much, and hundreds of layers leave no outline of any model.
+inline constexpr double kMaxLayers = 256.0;
+
+/// Triangles that the open shapes of an image may have: a million, and eight a pixel; 16 million at
+/// most.
+std::int64_t triangleBudget(const glm::ivec2& size);
+
+/// Orders models front to back within each run of equal neighbours in a crowd of more than
+/// kSortedLayers: pixels are shaded less often. Only models of one material without texture trade
+/// places: where two of them tie they look the same. `layers`: boxes over the whole image.
+void sortCrowd(std::vector<DrawItem>& items, double layers);
+inline constexpr double kSortedLayers = 64.0;
+
+}  // namespace farol::render

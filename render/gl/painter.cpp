@@ -251,13 +251,13 @@ void Painter::State::setLights(const DrawItem& item, int count, const LinkedProg
     if (program.lightCount >= 0) api.Uniform1i(program.lightCount, count);
 }
 
-/// Moves what is drawn behind what lies in its plane: by what snapped vertices and rounding can
-/// move either.
+/// Moves what is drawn behind what lies in its plane: by what snapping along either axis, of either
+/// one's vertices, and rounding can move them.
 void Painter::State::setDepthRank(int rank) {
     if (rank == 0) return api.Disable(GL_POLYGON_OFFSET_FILL);
     const auto steps = static_cast<float>(-rank);  // smaller is farther
     api.Enable(GL_POLYGON_OFFSET_FILL);
-    api.PolygonOffset(steps * static_cast<float>(2.0 * facts.snapPx), steps * 16.0F);
+    api.PolygonOffset(steps * static_cast<float>(4.0 * facts.snapPx), steps * 16.0F);
 }
 
 void Painter::State::setScale(const Pass& pass, const LinkedProgram& program) {

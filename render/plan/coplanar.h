@@ -24,9 +24,9 @@ class CoplanarFaces {
              std::size_t index);
 
     /// Sets DrawItem::depthRank: one more than that of any earlier model with a face in the plane
-    /// of one of the model's that overlaps it, kMaxRank at most. Each rank moves a model back by
-    /// what its outline would move in two steps of the rasteriser's grid (GlFacts::snapPx), and 16
-    /// units of the depth's last place. Returns how many models have one. At most kMaxPairs pairs
+    /// of one of the model's that overlaps it, kMaxRank at most. Each rank moves a model back as
+    /// far as its depth changes within four times GlFacts::snapPx, and by 16 units of the depth's
+    /// last place. Returns how many models have one. At most kMaxPairs pairs
     /// of faces are compared, and none that look the same whichever shows.
     int rank(std::vector<DrawItem>& items, const FrameStyle& style);
 

@@ -16,7 +16,7 @@ struct Crowd {
 };
 
 /// Coarsest that a crowd gets: beyond it shapes are as coarse as they come.
-inline constexpr double kMostCoarsening = 1024.0;
+inline constexpr double kMostCoarsening = 65536.0;
 /// Layers of models' boxes over the whole image from which on a pixel gets one sample: four cost
 /// up to seven times as much, and hundreds of layers leave no outline of any model.
 inline constexpr double kMaxLayers = 256.0;

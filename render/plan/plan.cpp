@@ -94,7 +94,7 @@ class Planner {
             return std::nullopt;
         }
         plan_.stats.coarsening = crowd_.coarsening;
-        if (!drawsLines(style_)) plan_.stats.coplanar = coplanar_.rank(plan_.items, style_);
+        if (fillsFaces()) plan_.stats.coplanar = coplanar_.rank(plan_.items, style_);
         sortCrowd(plan_.items, layers);
         if (style_.layer == Layer::color) addLines(plan_, scene_, list, options_);
         addBackground();
@@ -184,6 +184,9 @@ class Planner {
         plan_.stats.lights += static_cast<int>(list.lights.size());
     }
 
+    /// Other layers than the colours are filled in any shading.
+    bool fillsFaces() const { return style_.layer != Layer::color || !drawsLines(style_); }
+
     bool isOverBudget() const {
         return crowd_.coarsening < kMostCoarsening &&
                openTriangles_ > triangleBudget(plan_.view.size);
@@ -195,7 +198,7 @@ class Planner {
 
     /// Counts a model in view towards the crowd's size.
     void count(const DrawItem& item, const glm::dmat4& viewFromObject, bool isOpen) {
-        if (!drawsLines(style_))
+        if (fillsFaces())
             coveredPx_ += coveredArea(pixelRect(item.mesh->bounds, viewFromObject, plan_.view),
                                       plan_.view.size);
         if (!isOpen) return;

@@ -68,6 +68,7 @@ TEST_CASE("of faces in one plane the first of the document shows") {
     std::mt19937 random(11);
     std::uniform_real_distribution<double> angle(0.0, 360.0), tilt(-40.0, 40.0), place(-1.5, 1.5),
         size(0.5, 12.0);
+    int ranked = 0;
     for (int round = 0; round < 12; ++round) {
         std::ostringstream plane;
         plane << "<rotate angle='" << tilt(random) << "' x='1' z='0.3'/><translate y='"
@@ -84,8 +85,9 @@ TEST_CASE("of faces in one plane the first of the document shows") {
         CAPTURE(round);
         Drawn drawn;
         CHECK(wrongPixels(renderer, models, drawn) == 0);
-        CHECK(drawn.stats.coplanar > 0);
+        ranked += drawn.stats.coplanar;
     }
+    CHECK(ranked > 20);
 }
 
 TEST_CASE("faces that only touch, or lie apart, are drawn as they are") {
@@ -96,7 +98,10 @@ TEST_CASE("faces that only touch, or lie apart, are drawn as they are") {
     const std::string over = group("", "plane 4") + group("<translate y='0.001'/>", "plane 2");
     const Drawn drawn = draw(renderer, over);
     CHECK(drawn.stats.coplanar == 0);
-    CHECK(pixelsOf(drawn.image, 2) > 500);
+    const std::size_t alone =
+        pixelsOf(draw(renderer, group("<translate y='0.001'/>", "plane 2")).image, 1);
+    CHECK(alone > 200);
+    CHECK(pixelsOf(drawn.image, 2) == alone);
     // From the front of one only its own face is seen.
     const std::string under =
         group("", "plane 4") + group("<rotate angle='180' x='1'/>", "plane 2");

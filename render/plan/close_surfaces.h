@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "generator/fineness.h"
+#include "generator/registry.h"
 #include "render/plan/instances.h"
 
 namespace farol::render {

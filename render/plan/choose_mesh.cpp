@@ -11,6 +11,8 @@ namespace {
 
 /// Vertices of a frame that are placed in double; what is over is drawn as it is.
 constexpr std::size_t kMaxNearVertices = 4'000'000;
+/// Error up to which pixels follow their rays: a coarser mesh of a thin ring is beside its surface.
+constexpr double kMostFollowedPx = 16.0;
 
 }  // namespace
 
@@ -50,7 +52,8 @@ bool MeshChoice::refine(DrawItem& item, const Instance& instance, const Instance
     if (!seen) return false;
     const glm::dvec3& balance = item.mesh->balance;
     for (int i = 0; i < 3; ++i) viewFromObject[i] *= balance[i];
-    if (seen->surface.kind->isNeeded(seen->surface, item.mesh->fullTurn, model.texture.has_value()))
+    if (errorPx_ <= kMostFollowedPx &&
+        seen->surface.kind->isNeeded(seen->surface, item.mesh->fullTurn, model.texture.has_value()))
         item.surface = seen->surface;
     item.unitFromObject = glm::vec3(balance / seen->surface.lengths);
     item.surfaceEye = glm::vec3(seen->eye);

@@ -110,13 +110,14 @@ MessageArguments argumentOf(std::string_view name, Number value) {
 
 Message buildMessage(const MessageRow& row, std::initializer_list<MessageArguments> arguments);
 
-/// Null if no table has such an id.
-constexpr const MessageRow* findRow(std::initializer_list<std::span<const MessageRow>> tables,
-                                    std::string_view id) {
+/// Nothing if no table has such an id. (A pointer to the row is no constant under g++ 12's
+/// sanitizers.)
+constexpr std::optional<MessageRow> findRow(
+    std::initializer_list<std::span<const MessageRow>> tables, std::string_view id) {
     for (const std::span<const MessageRow> table : tables)
         for (const MessageRow& row : table)
-            if (row.id == id) return &row;
-    return nullptr;
+            if (row.id == id) return row;
+    return std::nullopt;
 }
 constexpr bool hasPlaceholder(std::string_view text, std::string_view name) {
     for (const std::string_view placeholder : placeholdersOf(text))
@@ -160,9 +161,9 @@ consteval ArgumentName<kName> operator""_arg() {
 /// argument, do not compile. Each floor wraps it with its tables (FLOOR/messages.h).
 template <FixedString kId, const auto&... kTables, FixedString... kNames>
 Message makeMessage(const NamedArgument<kNames>&... arguments) {
-    constexpr const MessageRow* kRow = detail::findRow({kTables...}, kId.view());
-    static_assert(kRow != nullptr, "the table has no row with this id");
-    if constexpr (kRow != nullptr) {
+    static constexpr std::optional<MessageRow> kRow = detail::findRow({kTables...}, kId.view());
+    static_assert(kRow.has_value(), "the table has no row with this id");
+    if constexpr (kRow.has_value()) {
         static_assert((detail::hasPlaceholder(kRow->text, kNames.view()) && ...),
                       "an argument that the template has no placeholder for");
         static_assert(detail::areDistinct({kNames.view()...}), "an argument is given twice");

@@ -7,6 +7,8 @@ target_compile_options(farol_options INTERFACE
     -Woverloaded-virtual -Wduplicated-cond -Wlogical-op
     # g++ 12 warns wrongly inside std::string (GCC bug 105651).
     -Wno-restrict
+    # g++ 14 warns wrongly of alternatives that a std::variant does not hold; g++ 12 is the judge here.
+    $<$<VERSION_GREATER_EQUAL:$<CXX_COMPILER_VERSION>,13>:-Wno-maybe-uninitialized>
     # The same bytes on every machine: no fused multiply-add, which rounds once instead of twice.
     -ffp-contract=off)
 if(FAROL_WERROR)

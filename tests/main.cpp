@@ -17,7 +17,7 @@ struct Counts {
 
 class SkipListener : public Catch::TestEventListenerBase {
   public:
-    using TestEventListenerBase::TestEventListenerBase;
+    using Catch::TestEventListenerBase::TestEventListenerBase;
     void testCaseStarting(const Catch::TestCaseInfo& /*info*/) override {
         counts.isSkipped = false;
     }

@@ -7,6 +7,7 @@
 #include "core/messages.h"
 #include "generator/messages.h"
 #include "grade/messages.h"
+#include "grade/structure/messages.h"
 #include "image/messages.h"
 #include "render/plan/messages.h"
 #include "scene/messages.h"
@@ -26,6 +27,7 @@ inline std::vector<std::span<const MessageRow>> messageTables() {
             generator::kGeneratorMessages,
             render::kRenderMessages,
             grade::kGradeMessages,
+            grade::kCauseMessages,
             worker::kWorkerMessages,
             server::kServerMessages,
             cli::kCliMessages};

@@ -34,15 +34,17 @@ ordered_json placeOf(const Location& where) {
 ordered_json causesOf(const Grade& grade) {
     ordered_json out = ordered_json::array();
     for (const GradedCause& one : grade.causes) {
-        ordered_json entry{
-            {"code", one.code},       {"criterion", kTopicWords[kindOf(one.code).topic]},
-            {"message", one.message}, {"points", twoDigits(one.points)},
-            {"seen", one.isSeen},     {"spoils", sixDigits(one.spoiled)}};
+        ordered_json entry{{"code", one.code},
+                           {"criterion", kTopicWords[kindOf(one.code).topic]},
+                           {"message", one.message.text},
+                           {"points", twoDigits(one.points)},
+                           {"seen", one.isSeen},
+                           {"spoils", sixDigits(one.spoiled)}};
         entry.update(placeOf(one.places.front().where));
         if (!one.places.front().excerpt.empty()) entry["excerpt"] = one.places.front().excerpt;
         entry["places"] = ordered_json::array();
         for (const CausePlace& place : one.places) {
-            ordered_json where{{"who", place.who}};
+            ordered_json where{{"who", place.who.text}};
             where.update(placeOf(place.where));
             if (&place != &one.places.front() && !place.excerpt.empty())
                 where["excerpt"] = place.excerpt;

@@ -25,7 +25,7 @@ struct CriterionGrade {
 
 /// A place of the document that a cause stands at.
 struct CausePlace {
-    std::string who;      ///< "group \"door\""
+    Message who;          ///< "group \"door\""
     Location where;       ///< line 0 where the submission lacks something
     std::string excerpt;  ///< the lines of the document there
 };
@@ -33,7 +33,7 @@ struct CausePlace {
 /// A mistake, and what it costs: nothing where nobody can see it.
 struct GradedCause {
     std::string code;  ///< of kinds()
-    std::string message;
+    Message message;
     std::vector<CausePlace> places;
     double points = 0;   ///< that it costs
     double spoiled = 0;  ///< share of the weighted work that it changes, 0..1

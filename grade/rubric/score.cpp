@@ -107,12 +107,6 @@ double penaltyOf(const Grade& grade, const Rubric& rubric) {
     return std::min(sum, rubric.mostPenalty);
 }
 
-/// The name without its own line where the place has one.
-std::string nameAt(const Fix& fix) {
-    const std::size_t at = fix.who.rfind(" (line ");
-    return fix.where.line > 0 && at != std::string::npos ? fix.who.substr(0, at) : fix.who;
-}
-
 std::string lineText(const Location& where) {
     return where.line > 0 ? std::to_string(where.line) : "";
 }
@@ -120,26 +114,25 @@ std::string lineText(const Location& where) {
 /// "group "door": the angle has the wrong sign (line 65)"; of several places once, with all.
 Message sentenceOf(const Cause& cause, Reveal reveal) {
     const Fix& first = cause.fixes.front();
-    const std::string values = reveal == Reveal::values ? first.values : "";
-    static const std::set<std::string> kVerbs{"is", "has", "stands", "shines", "moves"};
-    if (cause.fixes.size() == 1) {
-        const bool isVerb = kVerbs.count(first.what.substr(0, first.what.find(' '))) != 0;
-        return isVerb ? message<"part.cause/beside">(
-                            "who"_arg = uncut(nameAt(first)), "what"_arg = uncut(first.what),
-                            "values"_arg = uncut(values), "line"_arg = lineText(first.where))
-                      : message<"part.cause/of">(
-                            "who"_arg = uncut(nameAt(first)), "what"_arg = uncut(first.what),
-                            "values"_arg = uncut(values), "line"_arg = lineText(first.where));
-    }
+    const Message& finding = first.words.finding;
+    const Message values = reveal == Reveal::values ? first.words.values : Message();
+    if (cause.fixes.size() == 1)
+        return finding.code() == "part.predicate"
+                   ? message<"part.cause/beside">("who"_arg = first.who, "finding"_arg = finding,
+                                                  "values"_arg = values,
+                                                  "line"_arg = lineText(first.where))
+                   : message<"part.cause/of">("who"_arg = first.who, "finding"_arg = finding,
+                                              "values"_arg = values,
+                                              "line"_arg = lineText(first.where));
     constexpr std::size_t kListed = 6;
     std::vector<std::string> places;
     for (std::size_t i = 0; i < std::min(kListed, cause.fixes.size()); ++i)
-        places.push_back(message<"part.cause/place">("who"_arg = uncut(nameAt(cause.fixes[i])),
+        places.push_back(message<"part.cause/place">("who"_arg = cause.fixes[i].who,
                                                      "line"_arg = lineText(cause.fixes[i].where))
                              .text);
     const std::size_t count = cause.fixes.size();
     return message<"part.cause/places">(
-        "count"_arg = count, "what"_arg = uncut(first.what), "values"_arg = uncut(values),
+        "count"_arg = count, "finding"_arg = finding, "values"_arg = values,
         "places"_arg = uncut(joined(places, ", ")),
         "more"_arg = count > kListed ? std::to_string(count - kListed) : std::string());
 }
@@ -306,7 +299,7 @@ void score(Grade& grade, const Evidence* evidence, const Rubric& rubric, const s
             cause.isSeen = cause.spoiled > kSeen || cause.code.ends_with(".file-missing");
             if (evidence->isUnclosed && cause.code == "group.parent")
                 sentence = message<"part.cause/unclosed">("cause"_arg = sentence);
-            cause.message = sentence.text;
+            cause.message = std::move(sentence);
             for (const Fix& fix : causes[c].fixes)
                 cause.places.push_back({fix.who, fix.where, excerptAt(fix.where)});
             grade.causes.push_back(std::move(cause));

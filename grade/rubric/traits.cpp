@@ -53,7 +53,7 @@ std::set<std::string> placesOf(const Outline& outline) {
     for (const Outline::Item& item : outline.items) {
         if (item.isGone) continue;
         const glm::dmat4& pose = poses[static_cast<std::size_t>(item.node)];
-        std::string text = nameOfItem(outline, static_cast<int>(&item - outline.items.data()));
+        std::string text = nameOfItem(outline, static_cast<int>(&item - outline.items.data())).text;
         for (int column = 0; column < 4; ++column)
             for (int row = 0; row < 3; ++row) {
                 constexpr double kSteps = 1e3;
@@ -82,7 +82,9 @@ Traits traitsOf(const Diagnosis& diagnosis, const Outline& reference, const std:
     std::set<std::string> causes;
     for (const Cause& cause : diagnosis.causes)
         for (const Fix& fix : cause.fixes)
-            if (!fix.values.empty()) causes.insert(fix.who + ": " + fix.what + ", " + fix.values);
+            if (!fix.words.values.empty())
+                causes.insert(fix.who.text + ": " + fix.words.finding.text + ", " +
+                              fix.words.values.text);
     return {without(causes, {}), without(placesOf(diagnosis.submitted), placesOf(reference)),
             without(commentsOf(xml), commentsOf(referenceXml)),
             without(runsOf(xml), runsOf(referenceXml))};

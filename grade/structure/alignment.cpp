@@ -115,12 +115,8 @@ class Aligner {
                         std::find(edit.order.begin(), edit.order.end(), own_[j].link->id);
                     std::swap(*at, *(at + 1));
                     edit.link = own_[j].link->id;
-                    const std::string first = wordOf(own_[j].link->transform),
-                                      second = wordOf(own_[j + 1].link->transform);
-                    edit.slip.code = "transform.order";
-                    edit.slip.what = first + " and " + second + " are in the wrong order";
-                    edit.slip.kind = "order " + first + " " + second;
-                    edit.slip.effort = 0.9;
+                    edit.slip =
+                        slipOfOrder(own_[j].link->transform, own_[j + 1].link->transform, 0.9);
                     out.push_back(edit);
                     break;
                 }
@@ -133,12 +129,7 @@ class Aligner {
                     edit.kind = Edit::Kind::remove;
                     edit.node = own_[j].node;
                     edit.link = own_[j].link->id;
-                    const scene::Transform& extra = own_[j].link->transform;
-                    edit.slip.code = "transform.extra";
-                    edit.slip.what = "a " + wordOf(extra) + " is too much";
-                    edit.slip.values = "is " + textOf(extra);
-                    edit.slip.kind = "extra " + wordOf(extra);
-                    edit.slip.effort = 1.1;
+                    edit.slip = slipOfExtra(own_[j].link->transform, 1.1);
                     out.push_back(edit);
                     break;
                 }
@@ -159,12 +150,7 @@ class Aligner {
         link.transform = wanted;
         link.id = 1'500'000 + static_cast<int>(goal);
         edit.links = {link};
-        const bool moves = wanted.index() == 1 || wanted.index() == 3;
-        edit.slip.code = moves ? "animation.missing" : "transform.missing";
-        edit.slip.what = "a " + wordOf(wanted) + " is missing";
-        edit.slip.values = "expected " + textOf(wanted);
-        edit.slip.kind = "missing " + wordOf(wanted);
-        edit.slip.effort = 0.95;
+        edit.slip = slipOfMissing(wanted, 0.95);
         return edit;
     }
 

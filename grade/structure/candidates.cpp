@@ -6,8 +6,10 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <numbers>
 
+#include "core/text.h"
 #include "grade/structure/alignment.h"
 #include "grade/structure/fix.h"
+#include "grade/structure/messages.h"
 #include "scene/animation.h"
 
 namespace farol::grade {
@@ -54,17 +56,6 @@ std::vector<scene::Transform> variantsOf(const scene::Transform& given) {
                 out.push_back(scene::Rotate{r->angleDeg, other});
         }
     }
-    return out;
-}
-
-Slip words(const char* code, const std::string& what, const std::string& values,
-           const std::string& kind, double effort) {
-    Slip out;
-    out.code = code;
-    out.what = what;
-    out.values = values;
-    out.kind = kind;
-    out.effort = effort;
     return out;
 }
 
@@ -217,8 +208,7 @@ void CandidateFinder::addNumbers(const Pair& pair, std::vector<Candidate>& out) 
         for (std::size_t t = 0; t < world.size(); ++t) without[t] = before[t] * after[t];
         if (reaches(pair, without)) {
             edit.kind = Edit::Kind::remove;
-            edit.slip = words("transform.extra", "a " + wordOf(mine) + " is too much",
-                              "is " + textOf(mine), "extra " + wordOf(mine), 1.15);
+            edit.slip = slipOfExtra(mine, 1.15);
             out.push_back({{edit}, edit.slip.effort});
         }
         edit.kind = Edit::Kind::set;
@@ -251,10 +241,7 @@ Edit CandidateFinder::insertion(const std::vector<Step>& steps, std::size_t at, 
     link.transform = transform;
     link.id = 1'000'000 + static_cast<int>(100 * at) + node;  // beyond those of documents
     edit.links = {link};
-    const bool moves = transform.index() == 1 || transform.index() == 3;
-    edit.slip = words(moves ? "animation.missing" : "transform.missing",
-                      "a " + wordOf(transform) + " is missing", "expected " + textOf(transform),
-                      "missing " + wordOf(transform), 1.3);
+    edit.slip = slipOfMissing(transform, 1.3);
     return edit;
 }
 
@@ -283,17 +270,7 @@ void CandidateFinder::addInsertions(const Pair& pair, std::vector<Candidate>& ou
                 if (!endsBefore || !startsAfter) continue;
                 Edit edit = insertion(steps, k, node, *value);
                 if (isKnown) edit.slip.effort -= 0.3;
-                if (node == 0) {
-                    const char* const code = kind == 0   ? "whole.moved"
-                                             : kind == 2 ? "whole.turned"
-                                                         : "whole.scaled";
-                    edit.slip = words(code,
-                                      std::string("the whole scene is ") +
-                                          (kind == 0   ? "moved"
-                                           : kind == 2 ? "turned"
-                                                       : "of another size, or mirrored"),
-                                      "a " + textOf(*value) + " brings it there", code, 1.2);
-                }
+                if (node == 0) edit.slip = slipOfWhole(*value);
                 if (reachesBy(pair, {edit})) out.push_back({{edit}, edit.slip.effort});
             }
         }
@@ -315,15 +292,18 @@ void CandidateFinder::addOrders(const Pair& pair, std::vector<Candidate>& out) c
                 edit.order.push_back(links[order[i]].id);
                 if (order[i] != i) moved.push_back(i);
             }
-            const std::string first = wordOf(links[moved.front()].transform),
-                              second = wordOf(links[moved.back()].transform);
-            const bool isSwap = moved.size() == 2;
             edit.link = links[moved.front()].id;
-            edit.slip =
-                words("transform.order",
-                      isSwap ? first + " and " + second + " are in the wrong order"
-                             : "the transforms are in the wrong order",
-                      "", isSwap ? "order " + first + " " + second : "order", isSwap ? 0.95 : 1.1);
+            if (moved.size() == 2)
+                edit.slip = slipOfOrder(links[moved.front()].transform,
+                                        links[moved.back()].transform, 0.95);
+            else
+                edit.slip = {"transform.order",
+                             []() -> CauseWords {
+                                 return {causeMessage<"part.finding/order">(), {}};
+                             },
+                             "order",
+                             1.1,
+                             {}};
             if (reachesBy(pair, {edit})) out.push_back({{edit}, edit.slip.effort});
         }
     }
@@ -355,11 +335,16 @@ void CandidateFinder::addParents(const Pair& pair, std::vector<Candidate>& out) 
             edit.node = isItem ? item.node : moved;
             edit.item = pair.mine;
             edit.parent = parent;
-            const std::string from = nameOfNode(mine_, path[p - 1]), to = nameOfNode(mine_, parent);
-            edit.slip =
-                words("group.parent", "it hangs under " + from + ", and should hang under " + to,
-                      "", "parent " + std::to_string(path[p - 1]) + " " + std::to_string(parent),
-                      isItem ? 1.15 : 1.05);
+            edit.slip = {"group.parent",
+                         [from = nameOfNode(mine_, path[p - 1]),
+                          to = nameOfNode(mine_, parent)]() -> CauseWords {
+                             return {causeMessage<"part.finding/parent">("value"_arg = from,
+                                                                         "expected"_arg = to),
+                                     {}};
+                         },
+                         "parent " + std::to_string(path[p - 1]) + " " + std::to_string(parent),
+                         isItem ? 1.15 : 1.05,
+                         {}};
             out.push_back({{edit}, edit.slip.effort});
         }
     }
@@ -385,21 +370,14 @@ void CandidateFinder::addPlaces(const Pair& pair, std::vector<Candidate>& out) c
         edit.kind = Edit::Kind::place;
         edit.node = path[p];
         const auto& links = mine_.nodes[static_cast<std::size_t>(path[p])].links;
-        std::string values;
         for (const scene::Transform& part : *parts) {
             Link link;
             link.transform = part;
             link.id = 2'000'000 + 10 * path[p] + static_cast<int>(edit.links.size());
             if (!links.empty()) link.where = links.front().where;
             edit.links.push_back(link);
-            values += (values.empty() ? "" : ", ") + textOf(part);
         }
-        if (path[p] == 0)
-            edit.slip = words("whole.moved", "the whole scene stands elsewhere", values,
-                              "whole.moved", 1.5);
-        else
-            edit.slip = words("transform.other", "its transforms lead to another place",
-                              "expected " + values, "place", 2.3);
+        edit.slip = slipOfPlace(path[p] == 0, *parts, path[p] == 0 ? 1.5 : 2.3);
         if (reachesBy(pair, {edit})) out.push_back({{edit}, edit.slip.effort});
     }
 }
@@ -478,7 +456,7 @@ Candidate CandidateFinder::replace(const Pair& pair) const {
     edit.parent = -1;
     for (const Link* link : chainOf(theirs_, theirs.node)) edit.links.push_back(*link);
     for (Link& link : edit.links) link.id += 3'000'000;
-    edit.slip = words("transform.other", "its transforms lead to another place", "", "place", 2.6);
+    edit.slip = slipOfPlace(false, {}, 2.6);
     out.edits = {edit};
     out.effort = edit.slip.effort;
     return out;

@@ -8,6 +8,7 @@
 #include "generator/entry.h"
 #include "grade/structure/dressing.h"
 #include "grade/structure/lights.h"
+#include "grade/structure/messages.h"
 #include "grade/structure/places.h"
 
 namespace farol::grade {
@@ -49,23 +50,21 @@ class Subtrees {
     std::vector<bool> hasOther_;
 };
 
-std::string kindOfThing(const Outline::Item& item) {
-    const scene::ShapeCall& call = item.model.source.shape;
-    if (call.entry != nullptr) return articleFor(call.entry->name) + call.entry->name;
-    return shown(item.model.file.empty() ? item.model.command : item.model.file);
-}
-
 /// A thing of the reference that the author has not written: by name, or by what it is.
-std::string nameOfMissing(const Outline& theirs, int item) {
+Message nameOfMissing(const Outline& theirs, int item) {
     const Outline::Item& one = theirs.items[static_cast<std::size_t>(item)];
-    if (!one.model.name.empty()) return farol::quoted(one.model.name);
+    const auto named = [](const std::string& name) {
+        return causeMessage<"part.who/model">("name"_arg = name);
+    };
+    if (!one.model.name.empty()) return named(one.model.name);
     const std::string& own = theirs.nodes[static_cast<std::size_t>(one.node)].name;
-    if (!own.empty()) return farol::quoted(own);
+    if (!own.empty()) return named(own);
     for (int node = one.node; node > 0; node = theirs.nodes[static_cast<std::size_t>(node)].parent)
         if (const std::string& name = theirs.nodes[static_cast<std::size_t>(node)].name;
             !name.empty())
-            return kindOfThing(one) + " of " + farol::quoted(name);
-    return kindOfThing(one);
+            return causeMessage<"part.who/model-of">("mesh"_arg = meshNameOf(one.model),
+                                                     "group"_arg = name);
+    return causeMessage<"part.who/mesh">("mesh"_arg = meshNameOf(one.model));
 }
 
 std::vector<Fix> explainMissing(const Outline& theirs, const Matching& matching) {
@@ -79,9 +78,11 @@ std::vector<Fix> explainMissing(const Outline& theirs, const Matching& matching)
         fix.code = isGroup ? "group.missing" : "model.missing";
         fix.who = nameOfMissing(theirs, items.front());
         if (isGroup && top > 0 && !theirs.nodes[static_cast<std::size_t>(top)].name.empty())
-            fix.who = "group " + farol::quoted(theirs.nodes[static_cast<std::size_t>(top)].name);
-        fix.what =
-            isGroup ? "is missing, with " + std::to_string(items.size()) + " models" : "is missing";
+            fix.who = nameOfNodeAlone(theirs, top);
+        fix.words = {isGroup
+                         ? causeMessage<"part.predicate/missing-models">("count"_arg = items.size())
+                         : causeMessage<"part.predicate/missing">(),
+                     {}};
         fix.kind = fix.code + std::to_string(top);
         fix.items = items;
         struct Whole {
@@ -130,8 +131,10 @@ class ExtraFinder {
             const bool isGroup = items.size() > 1;
             fix.code = isDoubled ? "model.doubled" : isGroup ? "group.extra" : "model.extra";
             fix.who =
-                isGroup && top > 0 ? nameOfNode(mine_, top) : nameOfItem(mine_, items.front());
-            fix.what = isDoubled ? "is there twice at the same place" : "is too much";
+                isGroup && top > 0 ? nameOfNodeAlone(mine_, top) : nameOfItem(mine_, items.front());
+            fix.words = {isDoubled ? causeMessage<"part.predicate/doubled">()
+                                   : causeMessage<"part.predicate/extra">(),
+                         {}};
             fix.kind = fix.code + std::to_string(top);
             fix.where = isGroup && top > 0
                             ? mine_.nodes[static_cast<std::size_t>(top)].where

@@ -6,6 +6,7 @@
 
 #include "core/text.h"
 #include "generator/registry.h"
+#include "grade/structure/messages.h"
 #include "grade/structure/slips.h"
 
 namespace farol::grade {
@@ -26,10 +27,13 @@ bool isBlack(const scene::Color& color) {
     return !color.cycles && apartOf(color.rgb, glm::vec3(0)) < kSameLevel;
 }
 
-std::string levels(const scene::Color& color) {
-    const glm::dvec3 rgb(color.rgb * 255.0F);
-    return shortNumbers(glm::round(rgb * 100.0) / 100.0);
-}
+/// Colours of a material that differ in one way.
+struct Channels {
+    std::vector<std::string> names, is, expected;  // "diffuse", "diffuse 255 0 0", ...
+    std::vector<scene::Color Material::*> at;
+
+    Message values() const { return twoValues(joined(is, ", "), joined(expected, ", ")); }
+};
 
 Outline::Item& itemAt(Outline& outline, int item) {
     return outline.items[static_cast<std::size_t>(item)];
@@ -88,13 +92,12 @@ class Dresser {
     }
     const Outline::Item& mine(int j) const { return mine_.items[static_cast<std::size_t>(j)]; }
 
-    void say(int i, int j, const char* code, const std::string& what, const std::string& values,
-             const std::string& kind, const Location& where, std::function<void(Outline&)> apply) {
+    void say(int i, int j, const char* code, CauseWords words, const std::string& kind,
+             const Location& where, std::function<void(Outline&)> apply) {
         Fix fix;
         fix.code = code;
         fix.who = nameOfItem(mine_, j);
-        fix.what = what;
-        fix.values = values;
+        fix.words = std::move(words);
         fix.kind = std::string(code) + " " + kind;
         fix.where = where;
         fix.apply = std::move(apply);
@@ -116,18 +119,17 @@ class Dresser {
         if (a.model.twoSided != b.model.twoSided) {
             const bool right = a.model.twoSided;
             say(i, j, "model.culling",
-                right ? "its back is culled, and both sides should be drawn"
-                      : "both sides are drawn, and its back should be culled",
-                "", "", b.model.where,
-                [j, right](Outline& o) { itemAt(o, j).model.twoSided = right; });
+                {right ? causeMessage<"part.finding/culled">()
+                       : causeMessage<"part.finding/culled-not">(),
+                 {}},
+                "", b.model.where, [j, right](Outline& o) { itemAt(o, j).model.twoSided = right; });
         }
         if (b.isReversed)
-            say(i, j, "model.winding",
-                "its triangles are clockwise, so that the front is culled and the back is seen", "",
-                "", b.model.where, [j](Outline& o) { itemAt(o, j).isReversed = false; });
+            say(i, j, "model.winding", {causeMessage<"part.finding/winding">(), {}}, "",
+                b.model.where, [j](Outline& o) { itemAt(o, j).isReversed = false; });
         if (b.lacksMesh)
             return say(i, j, "model.file-missing",
-                       "its mesh " + farol::quoted(b.model.file) + " cannot be read", "",
+                       {causeMessage<"part.finding/mesh-file">("file"_arg = b.model.file), {}},
                        b.model.file, b.model.where, [j, a](Outline& o) {
                            takeMesh(o, j, a, glm::dmat4(1.0));
                            itemAt(o, j).material = a.material;
@@ -146,42 +148,46 @@ class Dresser {
         const glm::dmat4 way =
             form.isOneForm() && isMadeUpFor ? form.mineFromTheirs : glm::dmat4(1.0);
         const auto apply = [j, a, way](Outline& o) { takeMesh(o, j, a, way); };
-        const auto tell = [&](const char* code, const std::string& what,
-                              const std::string& values = "", const std::string& kind = "") {
-            say(i, j, code, what, values, kind, b.model.where, apply);
+        const auto tell = [&](const char* code, const Message& finding, const Message& values = {},
+                              const std::string& kind = "") {
+            say(i, j, code, {finding, values}, kind, b.model.where, apply);
         };
         if (!form.isOneForm()) return tellShape(a, b, tell);
         if (!isMadeUpFor) {
             if (a.model.source.shape.entry != nullptr && b.model.source.shape.entry != nullptr)
                 return tellShape(a, b, tell);
-            return tell("model.arguments", "its mesh has another size");
+            return tell("model.arguments", causeMessage<"part.finding/mesh-size">());
         }
         const bool inward = surface.normalsOpposite > kMinShare,
                    reversed = surface.windingReversed > kMinShare;
         if (inward && reversed)
-            return tell("model.inside-out", "it is inside out: normals and triangles face inward");
-        if (reversed)
-            return tell("model.winding",
-                        "its triangles are clockwise, so that the front is culled and the back is "
-                        "seen");
-        if (inward) return tell("model.normals-inward", "its normals point inward");
+            return tell("model.inside-out", causeMessage<"part.finding/inside-out">());
+        if (reversed) return tell("model.winding", causeMessage<"part.finding/winding">());
+        if (inward)
+            return tell("model.normals-inward", causeMessage<"part.finding/normals-inward">());
         if (surface.normalsSame < kMinShare && surface.normalsUntransposed > kMinShare)
-            return tell("model.normal-matrix",
-                        "its normals are scaled like positions; they need the inverse transpose");
+            return tell("model.normal-matrix", causeMessage<"part.finding/normal-matrix">());
         if (surface.normalsSame < kMinShare && surface.normalsOfFaces > kMinShare)
-            return tell("model.flat-normals",
-                        "it is flat shaded: its normals are those of the faces");
-        if (surface.normalsSame < kMinShare) return tell("model.normals", "its normals differ");
+            return tell("model.flat-normals", causeMessage<"part.finding/flat">());
+        if (surface.normalsSame < kMinShare)
+            return tell("model.normals", causeMessage<"part.finding/normals">());
         if (!surface.hasUvs || !textured || surface.uvSame > kMinShare) return;
         if (surface.uvUpsideDown > kMinShare)
-            return tell("texture.upside-down", "its texture is upside down: v runs the other way");
+            return tell("texture.upside-down", causeMessage<"part.finding/uv-upside-down">());
         if (surface.uvMirrored > kMinShare)
-            return tell("texture.mirrored", "its texture is mirrored: u runs the other way");
+            return tell("texture.mirrored", causeMessage<"part.finding/uv-mirrored">());
         if (surface.uvBoth > kMinShare)
-            return tell("texture.turned", "its texture is turned by half: u and v run backwards");
+            return tell("texture.turned", causeMessage<"part.finding/uv-turned">());
         if (surface.uvSwapped > kMinShare)
-            return tell("texture.swapped-uv", "u and v of its texture are exchanged");
-        tell("texture.coordinates", "its texture coordinates differ");
+            return tell("texture.swapped-uv", causeMessage<"part.finding/uv-swapped">());
+        tell("texture.coordinates", causeMessage<"part.finding/texture-coordinates">());
+    }
+
+    static Message exchanged(const generator::Argument& first, const generator::Argument& second,
+                             const std::string& shape) {
+        return causeMessage<"part.finding/exchanged">("first"_arg = lowerCase(first.name),
+                                                      "second"_arg = lowerCase(second.name),
+                                                      "shape"_arg = shape);
     }
 
     /// Another form: words for shapes, whose arguments say what is wrong.
@@ -189,13 +195,12 @@ class Dresser {
     void tellShape(const Outline::Item& a, const Outline::Item& b, const Tell& tell) {
         const scene::ShapeCall &expected = a.model.source.shape, &actual = b.model.source.shape;
         if (expected.entry == nullptr || actual.entry == nullptr)
-            return tell("model.shape", "its surface is another one");
-        const std::string values =
-            "is " + generator::textOf(actual) + ", expected " + generator::textOf(expected);
+            return tell("model.shape", causeMessage<"part.finding/surface">());
+        const Message values = twoValues(generator::textOf(actual), generator::textOf(expected));
         if (expected.entry != actual.entry)
             return tell("model.shape",
-                        "it is " + articleFor(actual.entry->name) + actual.entry->name +
-                            ", expected " + articleFor(expected.entry->name) + expected.entry->name,
+                        causeMessage<"part.finding/shape">("value"_arg = actual.entry->name,
+                                                           "expected"_arg = expected.entry->name),
                         values, actual.entry->name + " " + expected.entry->name);
         const std::vector<generator::Argument>& arguments = expected.entry->arguments;
         for (std::size_t k = 0; k + 1 < arguments.size(); ++k) {
@@ -203,23 +208,26 @@ class Dresser {
             std::swap(swapped.arguments[k], swapped.arguments[k + 1]);
             if (swapped == expected)
                 return tell("model.swapped-arguments",
-                            lowerCase(arguments[k].name) + " and " +
-                                lowerCase(arguments[k + 1].name) + " of the " + actual.entry->name +
-                                " are exchanged",
-                            values, std::to_string(k));
+                            exchanged(arguments[k], arguments[k + 1], actual.entry->name), values,
+                            std::to_string(k));
         }
-        std::string names, way;
+        std::vector<std::string> names;
+        bool isLarge = false;
         for (std::size_t k = 0; k < arguments.size(); ++k) {
             const double wanted = expected.arguments[k].value, given = actual.arguments[k].value;
             if (std::abs(wanted - given) <= 1e-6 * std::abs(wanted)) continue;
-            names += (names.empty() ? "" : " and ") + lowerCase(arguments[k].name);
-            way = given > wanted ? "too large" : "too small";
+            names.push_back(lowerCase(arguments[k].name));
+            isLarge = given > wanted;
         }
-        tell("model.arguments",
-             names.find(" and ") == std::string::npos
-                 ? "the " + names + " of its " + actual.entry->name + " is " + way
-                 : names + " of its " + actual.entry->name + " have other values",
-             values, names);
+        const std::string& shape = actual.entry->name;
+        const Message finding =
+            names.size() != 1 ? causeMessage<"part.finding/arguments">(
+                                    "arguments"_arg = listOf(names), "shape"_arg = shape)
+            : isLarge ? causeMessage<"part.finding/argument-large">("argument"_arg = names.front(),
+                                                                    "shape"_arg = shape)
+                      : causeMessage<"part.finding/argument-small">("argument"_arg = names.front(),
+                                                                    "shape"_arg = shape);
+        tell("model.arguments", finding, values, joined(names, " "));
     }
 
     /// The same surface, which a scene's own words divide in another way.
@@ -231,8 +239,7 @@ class Dresser {
             return;
         const std::vector<generator::Argument>& arguments = expected.entry->arguments;
         const auto apply = [j, a](Outline& o) { takeMesh(o, j, a, glm::dmat4(1.0)); };
-        const std::string values =
-            "is " + generator::textOf(actual) + ", expected " + generator::textOf(expected);
+        const Message values = twoValues(generator::textOf(actual), generator::textOf(expected));
         bool lengths = false, levels = false;
         for (std::size_t k = 0; k < arguments.size(); ++k) {
             const bool differs = std::abs(expected.arguments[k].value - actual.arguments[k].value) >
@@ -245,13 +252,13 @@ class Dresser {
             std::swap(swapped.arguments[k], swapped.arguments[k + 1]);
             if (swapped != expected) continue;
             say(i, j, "model.swapped-arguments",
-                lowerCase(arguments[k].name) + " and " + lowerCase(arguments[k + 1].name) +
-                    " of the " + actual.entry->name + " are exchanged",
-                values, std::to_string(k), b.model.where, apply);
+                {exchanged(arguments[k], arguments[k + 1], actual.entry->name), values},
+                std::to_string(k), b.model.where, apply);
             return;
         }
-        say(i, j, "model.divisions", "its " + actual.entry->name + " is divided in another way",
-            values, "", b.model.where, apply);
+        say(i, j, "model.divisions",
+            {causeMessage<"part.finding/divisions">("shape"_arg = actual.entry->name), values}, "",
+            b.model.where, apply);
     }
 
     void compareTextures(int i, int j) {
@@ -260,34 +267,45 @@ class Dresser {
         const auto right = modelOfReference(theirs(i)).texture;
         const auto apply = [j, right](Outline& o) { itemAt(o, j).model.texture = right; };
         const auto nameOf = [](const Texture& texture) {
-            return texture.chess ? std::string("a chess board") : shown(texture.file);
+            return texture.chess ? causeMessage<"part.who/chess">()
+                                 : causeMessage<"part.who/file">("file"_arg = texture.file);
         };
+        const auto isNow = [&] { return causeMessage<"part.values/is">("value"_arg = nameOf(*b)); };
+        const std::string file = b && !b->chess ? shown(b->file) : "";
         if (!b)
-            return say(i, j, "texture.missing", "its texture is missing", "expected " + nameOf(*a),
+            return say(i, j, "texture.missing",
+                       {causeMessage<"part.finding/texture-missing">(),
+                        causeMessage<"part.values/expected">("expected"_arg = nameOf(*a))},
                        "", mine(j).model.where, apply);
         if (mine(j).lacksTexture)
             return say(i, j, "texture.file-missing",
-                       "the file of its texture, " + farol::quoted(b->file) + ", cannot be read",
-                       "", b->file, b->where, apply);
+                       {causeMessage<"part.finding/texture-file">("file"_arg = b->file), {}},
+                       b->file, b->where, apply);
         if (!a)
-            return say(i, j, "texture.extra", "it has a texture, and should have none",
-                       "is " + nameOf(*b), "", b->where, apply);
+            return say(i, j, "texture.extra",
+                       {causeMessage<"part.finding/texture-extra">(), isNow()}, "", b->where,
+                       apply);
         switch (context_.pictures.compare(*a, *b)) {
             case Turn::none:
                 break;
             case Turn::upsideDown:
-                return say(i, j, "texture.upside-down", "its texture is upside down",
-                           "picture " + nameOf(*b), "picture", b->where, apply);
+                return say(i, j, "texture.upside-down",
+                           {causeMessage<"part.finding/texture-upside-down">(), isNow()}, "picture",
+                           b->where, apply);
             case Turn::mirrored:
-                return say(i, j, "texture.mirrored", "its texture is mirrored",
-                           "picture " + nameOf(*b), "picture", b->where, apply);
+                return say(i, j, "texture.mirrored",
+                           {causeMessage<"part.finding/texture-mirrored">(), isNow()}, "picture",
+                           b->where, apply);
             case Turn::both:
-                return say(i, j, "texture.turned", "its texture is turned by half",
-                           "picture " + nameOf(*b), "picture", b->where, apply);
+                return say(i, j, "texture.turned",
+                           {causeMessage<"part.finding/texture-turned">(), isNow()}, "picture",
+                           b->where, apply);
             case Turn::other:
-                return say(i, j, "texture.wrong", "it has another texture",
-                           "is " + nameOf(*b) + ", expected " + nameOf(*a), nameOf(*b), b->where,
-                           apply);
+                return say(i, j, "texture.wrong",
+                           {causeMessage<"part.finding/texture">(),
+                            causeMessage<"part.values/two">("value"_arg = nameOf(*b),
+                                                            "expected"_arg = nameOf(*a))},
+                           file, b->where, apply);
         }
         const auto filterOf = [](const Texture& texture) {
             return texture.filter.value_or(scene::Filter::mipmap);
@@ -296,11 +314,11 @@ class Dresser {
             const std::string is(scene::kFilterWords[filterOf(*b)]),
                 expected(scene::kFilterWords[filterOf(*a)]);
             say(i, j, "texture.filter",
-                filterOf(*a) >= scene::Filter::mipmap && filterOf(*b) < scene::Filter::mipmap
-                    ? "its texture has no mipmaps"
-                    : "its texture has another filter",
-                "is " + is + ", expected " + expected, is, b->where,
-                [j, filter = a->filter](Outline& o) {
+                {filterOf(*a) >= scene::Filter::mipmap && filterOf(*b) < scene::Filter::mipmap
+                     ? causeMessage<"part.finding/mipmaps">()
+                     : causeMessage<"part.finding/filter">(),
+                 twoValues(is, expected)},
+                is, b->where, [j, filter = a->filter](Outline& o) {
                     itemAt(o, j).model.texture->filter = filter;
                 });
         }
@@ -308,7 +326,7 @@ class Dresser {
             b->mapping == scene::Mapping::texgenEye || b->mapping == scene::Mapping::texgenObject;
         if (a->mapping != b->mapping ||
             (planes && (a->planeS != b->planeS || a->planeT != b->planeT)))
-            say(i, j, "texture.mapping", "its texture is laid on in another way", "", "", b->where,
+            say(i, j, "texture.mapping", {causeMessage<"part.finding/mapping">(), {}}, "", b->where,
                 apply);
     }
 
@@ -326,29 +344,20 @@ class Dresser {
              {"ambient", &Material::ambient, isLit_},
              {"specular", &Material::specular, isLit_},
              {"emissive", &Material::emissive, isLit_}}};
-        std::string small, smallValues, missing, missingValues;
-        std::vector<scene::Color Material::*> smallOnes, missingOnes;
-        std::string other, otherValues;
-        std::vector<scene::Color Material::*> otherOnes;
+        Channels small, missing, other;
         for (const Channel& one : channels) {
             const scene::Color &wanted = a.*one.at, &given = b.*one.at;
             if (!one.isSeen || (wanted.cycles == given.cycles &&
                                 (wanted.cycles || apartOf(wanted.rgb, given.rgb) < kSameLevel)))
                 continue;
-            const std::string values =
-                std::string(one.name) + " is " + levels(given) + ", expected " + levels(wanted);
-            const auto add = [&](std::string& names, std::string& all,
-                                 std::vector<scene::Color Material::*>& list) {
-                names += (names.empty() ? "" : " and ") + std::string(one.name);
-                all += (all.empty() ? "" : "; ") + values;
-                list.push_back(one.at);
-            };
-            if (!isBlack(wanted) && apartOf(given.rgb * 255.0F, wanted.rgb) < 0.06F)
-                add(small, smallValues, smallOnes);
-            else if (isBlack(given) && !isBlack(wanted))
-                add(missing, missingValues, missingOnes);
-            else
-                add(other, otherValues, otherOnes);
+            Channels& of = !isBlack(wanted) && apartOf(given.rgb * 255.0F, wanted.rgb) < 0.06F
+                               ? small
+                           : isBlack(given) && !isBlack(wanted) ? missing
+                                                                : other;
+            of.names.emplace_back(one.name);
+            of.is.push_back(of.names.back() + " " + levels(given));
+            of.expected.push_back(of.names.back() + " " + levels(wanted));
+            of.at.push_back(one.at);
         }
         const auto taking = [j, a](const std::vector<scene::Color Material::*>& list,
                                    bool shininess) {
@@ -357,26 +366,32 @@ class Dresser {
                 if (shininess) itemAt(o, j).material.shininess = a.shininess;
             };
         };
-        const bool specularMissing = std::find(missingOnes.begin(), missingOnes.end(),
-                                               &Material::specular) != missingOnes.end();
-        if (!smallOnes.empty())
-            say(i, j, "material.scale", "its colours are given as 0..1, and should be 0..255",
-                smallValues, "", where, taking(smallOnes, false));
-        if (!missingOnes.empty())
-            say(i, j, "material.missing", missing + " of its material is missing", missingValues,
-                missing, where, taking(missingOnes, specularMissing));
-        if (!otherOnes.empty())
+        const bool specularMissing = std::find(missing.at.begin(), missing.at.end(),
+                                               &Material::specular) != missing.at.end();
+        if (!small.at.empty())
+            say(i, j, "material.scale",
+                {causeMessage<"part.finding/color-range">(), small.values()}, "", where,
+                taking(small.at, false));
+        if (!missing.at.empty())
+            say(i, j, "material.missing",
+                {causeMessage<"part.finding/material-missing">("channels"_arg =
+                                                                   listOf(missing.names)),
+                 missing.values()},
+                joined(missing.names, " "), where, taking(missing.at, specularMissing));
+        if (!other.at.empty())
             say(i, j, "material.color",
-                other + " of its material " +
-                    (otherOnes.size() > 1 ? "are other colours" : "is another colour"),
-                otherValues, other + otherValues, where, taking(otherOnes, false));
+                {other.at.size() > 1
+                     ? causeMessage<"part.finding/colors">("channels"_arg = listOf(other.names))
+                     : causeMessage<"part.finding/color">("channel"_arg = other.names.front()),
+                 other.values()},
+                joined(other.is, " ") + joined(other.expected, " "), where,
+                taking(other.at, false));
         const bool shines = isLit_ && !isBlack(a.specular) && !specularMissing;
         if (shines && std::abs(a.shininess - b.shininess) > 0.01F)
             say(i, j, "material.shininess",
-                std::string("its shininess is too ") +
-                    (b.shininess > a.shininess ? "large" : "small"),
-                "is " + shortNumber(static_cast<double>(b.shininess)) + ", expected " +
-                    shortNumber(static_cast<double>(a.shininess)),
+                {b.shininess > a.shininess ? causeMessage<"part.finding/shininess-large">()
+                                           : causeMessage<"part.finding/shininess-small">(),
+                 twoValues(static_cast<double>(b.shininess), static_cast<double>(a.shininess))},
                 shortNumber(static_cast<double>(b.shininess)), where, taking({}, true));
     }
 
@@ -437,12 +452,12 @@ std::vector<Fix> otherDivisions(const SearchContext& context, const Outline& min
 
 std::vector<Fix> explainSettings(const SearchContext& context, const Outline& mine, bool isLit) {
     std::vector<Fix> out;
-    const auto say = [&](const char* code, const std::string& what, const Location& where,
+    const auto say = [&](const char* code, const Message& finding, const Location& where,
                          std::function<void(Outline&)> apply) {
         Fix fix;
         fix.code = code;
-        fix.who = "the scene";
-        fix.what = what;
+        fix.who = causeMessage<"part.who/scene">();
+        fix.words = {finding, {}};
         fix.kind = code;
         fix.where = where;
         fix.apply = std::move(apply);
@@ -456,8 +471,8 @@ std::vector<Fix> explainSettings(const SearchContext& context, const Outline& mi
                given = ours.settings.shading.value_or(usual);
     if (wanted != given && isLit)
         say(given == scene::Shading::flat ? "shading.flat" : "shading.mode",
-            given == scene::Shading::flat ? "the shading is flat, and should be smooth"
-                                          : "the shading is another one",
+            given == scene::Shading::flat ? causeMessage<"part.finding/shading-flat">()
+                                          : causeMessage<"part.finding/shading">(),
             {},
             [shading = theirs.settings.shading](Outline& o) { o.rest.settings.shading = shading; });
     if (theirs.skybox.has_value() != ours.skybox.has_value() ||
@@ -465,8 +480,8 @@ std::vector<Fix> explainSettings(const SearchContext& context, const Outline& mi
         auto right = theirs.skybox;
         if (right) right->path = kReferenceFolder + right->path;
         say("background.skybox",
-            ours.skybox ? "the skybox is another one, or should not be there"
-                        : "the skybox is missing",
+            ours.skybox ? causeMessage<"part.finding/skybox">()
+                        : causeMessage<"part.finding/skybox-missing">(),
             ours.skybox ? ours.skybox->where : Location{},
             [right](Outline& o) { o.rest.skybox = right; });
     }
@@ -475,7 +490,7 @@ std::vector<Fix> explainSettings(const SearchContext& context, const Outline& mi
         (!back.path.empty() && !context.pictures.isSameFile(back.path, myBack.path))) {
         scene::Background right = back;
         if (!right.path.empty()) right.path = kReferenceFolder + right.path;
-        say("background.other", "the background is another one", myBack.where,
+        say("background.other", causeMessage<"part.finding/background">(), myBack.where,
             [right](Outline& o) { o.rest.background = right; });
     }
     return out;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/text.h"
+#include "grade/structure/messages.h"
 #include "grade/structure/slips.h"
 
 namespace farol::grade {
@@ -16,10 +18,6 @@ using scene::LightType;
 
 constexpr double kSameCos = 0.99999;  // a quarter of a degree
 constexpr double kSameLength = 1e-3;  // of the scene's extent
-
-std::string lightLevels(const scene::Color& color) {
-    return shortNumbers(glm::dvec3(color.rgb) * 255.0);
-}
 
 double cosine(const glm::dvec3& a, const glm::dvec3& b) {
     const double lengths = glm::length(a) * glm::length(b);
@@ -63,7 +61,7 @@ class LightSearch {
         for (std::size_t j = 0; j < ours_.size(); ++j)
             if (!isTaken[j]) {
                 const int lamp = ours_[j].lamp;
-                say("light.extra", lamp, "is too much", "", "",
+                say("light.extra", lamp, {causeMessage<"part.predicate/extra">(), {}}, "",
                     [lamp](Outline& o) { o.lamps[static_cast<std::size_t>(lamp)].isGone = true; });
             }
         return std::move(out_);
@@ -108,17 +106,13 @@ class LightSearch {
         return sum;
     }
 
-    std::string nameOf(int lamp) const {
-        return "the " + ordinal(mine_.lamps[static_cast<std::size_t>(lamp)].number) + " light";
-    }
-
-    void say(const char* code, int lamp, const std::string& what, const std::string& values,
-             const std::string& kind, std::function<void(Outline&)> apply) {
+    void say(const char* code, int lamp, CauseWords words, const std::string& kind,
+             std::function<void(Outline&)> apply) {
         Fix fix;
         fix.code = code;
-        fix.who = nameOf(lamp);
-        fix.what = what;
-        fix.values = values;
+        fix.who = causeMessage<"part.who/light">(
+            "number"_arg = mine_.lamps[static_cast<std::size_t>(lamp)].number);
+        fix.words = std::move(words);
         fix.kind = std::string(code) + " " + kind;
         fix.where = mine_.lamps[static_cast<std::size_t>(lamp)].light.where;
         fix.apply = std::move(apply);
@@ -129,13 +123,15 @@ class LightSearch {
         const Outline::Lamp& wanted = context_.theirs.lamps[static_cast<std::size_t>(theirs.lamp)];
         Fix fix;
         fix.code = "light.missing";
-        fix.who = "a " + std::string(kLightTypeWords[wanted.light.type]) + " light";
-        fix.what = "is missing";
+        fix.who =
+            causeMessage<"part.who/light-kind">("type"_arg = kLightTypeWords[wanted.light.type]);
+        fix.words = {
+            causeMessage<"part.predicate/missing">(),
+            wanted.light.type != LightType::directional
+                ? causeMessage<"part.values/place">("expected"_arg = shortNumbers(theirs.position))
+                : causeMessage<"part.values/direction">("expected"_arg =
+                                                            shortNumbers(theirs.direction))};
         fix.kind = "light.missing";
-        if (wanted.light.type != LightType::directional)
-            fix.values = "expected at " + shortNumbers(theirs.position);
-        else
-            fix.values = "expected direction " + shortNumbers(theirs.direction);
         Light light = wanted.light;
         light.where = {};
         if (light.space == scene::LightSpace::world) {
@@ -163,15 +159,16 @@ class LightSearch {
             right.position = localPoint(lampOf(ours).node, theirs.position);
             right.direction = localDirection(lampOf(ours).node, theirs.direction);
             return say("light.type", lamp,
-                       "is a " + std::string(kLightTypeWords[given.type]) +
-                           " light, and should be a " + std::string(kLightTypeWords[wanted.type]) +
-                           " light",
-                       "", "", [lamp, right](Outline& o) {
+                       {causeMessage<"part.predicate/light-type">(
+                            "value"_arg = kLightTypeWords[given.type],
+                            "expected"_arg = kLightTypeWords[wanted.type]),
+                        {}},
+                       "", [lamp, right](Outline& o) {
                            o.lamps[static_cast<std::size_t>(lamp)].light = right;
                        });
         }
         if (wanted.space != given.space)
-            say("light.space", lamp, "moves with another space (camera or world)", "", "",
+            say("light.space", lamp, {causeMessage<"part.predicate/light-space">(), {}}, "",
                 setting(lamp, &Light::space, wanted.space));
         const bool isElsewhere = comparePlace(theirs, ours);
         if (!isElsewhere && wanted.type != LightType::point) compareDirection(theirs, ours);
@@ -210,13 +207,8 @@ class LightSearch {
                      cosine(towards, theirs.direction) < kSameCos))
                     continue;
                 const auto node = static_cast<int>(h);
-                say("light.group", lamp,
-                    own == 0 ? "stands outside of its group: its numbers are right in " +
-                                   nameOfNode(mine_, node)
-                             : "stands in " + nameOfNode(mine_, own) + ", and should stand " +
-                                   (node == 0 ? "outside of the groups"
-                                              : "in " + nameOfNode(mine_, node)),
-                    "", "", [lamp, node](Outline& o) {
+                say("light.group", lamp, {wordsOfGroup(own, node), {}}, "",
+                    [lamp, node](Outline& o) {
                         o.lamps[static_cast<std::size_t>(lamp)].node = node;
                     });
                 return true;
@@ -226,20 +218,24 @@ class LightSearch {
         const glm::dvec3 right = wanted.space == scene::LightSpace::world
                                      ? localPoint(own, theirs.position)
                                      : theirs.position;
-        const Slip slip =
-            slipBetween(scene::Translate{given.position}, scene::Translate{right}, false);
-        const bool isSign = slip.code == "transform.sign";
-        const bool isOrder = slip.code == "transform.coordinates";
-        const glm::dvec3 value = std::get<scene::Translate>(slip.right).offset;
-        say("light.position", lamp,
-            isSign ? slip.what.substr(0, slip.what.find(" of the")) + " of its position " +
-                         (slip.what.find("have") != std::string::npos ? "have the wrong sign"
-                                                                      : "has the wrong sign")
-            : isOrder ? "has a position whose coordinates are exchanged"
-                      : "stands elsewhere",
-            "is at " + shortNumbers(given.position) + ", expected " + shortNumbers(value),
-            slip.kind, setting(lamp, &Light::position, right));
+        const Slip slip = slipOfVector(given.position, right, "position");
+        CauseWords words = slip.words();
+        if (slip.code != "transform.sign" && slip.code != "transform.coordinates")
+            words.finding = causeMessage<"part.predicate/place">();
+        say("light.position", lamp, std::move(words), slip.kind,
+            setting(lamp, &Light::position, right));
         return false;
+    }
+
+    Message wordsOfGroup(int own, int right) const {
+        if (own == 0)
+            return causeMessage<"part.predicate/light-from-world">("group"_arg =
+                                                                       nameOfNode(mine_, right));
+        if (right == 0)
+            return causeMessage<"part.predicate/light-to-world">("value"_arg =
+                                                                     nameOfNode(mine_, own));
+        return causeMessage<"part.predicate/light-group">(
+            "value"_arg = nameOfNode(mine_, own), "expected"_arg = nameOfNode(mine_, right));
     }
 
     void compareDirection(const Placed& theirs, const Placed& ours) {
@@ -249,13 +245,13 @@ class LightSearch {
         const glm::dvec3 right = theirLight(theirs).space == scene::LightSpace::world
                                      ? localDirection(lampOf(ours).node, theirs.direction)
                                      : theirs.direction;
-        const std::string values =
-            "is " + shortNumbers(given.direction) + ", expected " + shortNumbers(right);
+        const Message values = twoValues(given.direction, right);
         const auto apply = setting(ours.lamp, &Light::direction, right);
         if (along < -kSameCos)
-            return say("light.direction-negated", ours.lamp, "shines the opposite way", values, "",
-                       apply);
-        say("light.direction", ours.lamp, "has another direction", values, "", apply);
+            return say("light.direction-negated", ours.lamp,
+                       {causeMessage<"part.predicate/direction-negated">(), values}, "", apply);
+        say("light.direction", ours.lamp, {causeMessage<"part.predicate/direction">(), values}, "",
+            apply);
     }
 
     void compareSpot(const Light& wanted, const Placed& ours) {
@@ -264,18 +260,18 @@ class LightSearch {
             const double degrees = given.cutoffDeg * 180.0 / std::numbers::pi;
             const bool isRadians = std::abs(degrees - wanted.cutoffDeg) < 0.02 * wanted.cutoffDeg;
             say(isRadians ? "light.cutoff-radians" : "light.cutoff", ours.lamp,
-                isRadians                            ? "has its cutoff in radians, not in degrees"
-                : given.cutoffDeg > wanted.cutoffDeg ? "has too large a cutoff"
-                                                     : "has too small a cutoff",
-                "is " + shortNumber(given.cutoffDeg) + ", expected " +
-                    shortNumber(wanted.cutoffDeg),
+                {isRadians ? causeMessage<"part.predicate/cutoff-radians">()
+                 : given.cutoffDeg > wanted.cutoffDeg
+                     ? causeMessage<"part.predicate/cutoff-large">()
+                     : causeMessage<"part.predicate/cutoff-small">(),
+                 twoValues(given.cutoffDeg, wanted.cutoffDeg)},
                 "", setting(ours.lamp, &Light::cutoffDeg, wanted.cutoffDeg));
         }
         if (std::abs(wanted.exponent - given.exponent) > 1e-3)
             say("light.exponent", ours.lamp,
-                given.exponent > wanted.exponent ? "has too large an exponent"
-                                                 : "has too small an exponent",
-                "is " + shortNumber(given.exponent) + ", expected " + shortNumber(wanted.exponent),
+                {given.exponent > wanted.exponent ? causeMessage<"part.predicate/exponent-large">()
+                                                  : causeMessage<"part.predicate/exponent-small">(),
+                 twoValues(given.exponent, wanted.exponent)},
                 "", setting(ours.lamp, &Light::exponent, wanted.exponent));
     }
 
@@ -285,8 +281,8 @@ class LightSearch {
         const glm::dvec3 a(wanted.constant, wanted.linear, wanted.quadratic),
             b(given.constant, given.linear, given.quadratic);
         if (wanted.type != LightType::directional && glm::length(a - b) > 1e-6)
-            say("light.attenuation", lamp, "has another attenuation",
-                "is " + shortNumbers(b) + ", expected " + shortNumbers(a), "",
+            say("light.attenuation", lamp,
+                {causeMessage<"part.predicate/attenuation">(), twoValues(b, a)}, "",
                 [lamp, a](Outline& o) {
                     Light& light = o.lamps[static_cast<std::size_t>(lamp)].light;
                     light.constant = a.x;
@@ -297,7 +293,7 @@ class LightSearch {
             const char* name;
             scene::Color Light::*at;
         };
-        std::string names, values;
+        std::vector<std::string> names, values, expected;
         std::vector<scene::Color Light::*> wrong;
         for (const Channel& one :
              {Channel{"diffuse", &Light::diffuse}, Channel{"ambient", &Light::ambient},
@@ -307,15 +303,18 @@ class LightSearch {
             if (theirs.cycles == mine.cycles &&
                 std::max({apart.x, apart.y, apart.z}) <= 1.0F / 255.0F)
                 continue;
-            names += (names.empty() ? "" : " and ") + std::string(one.name);
-            values += (values.empty() ? "" : "; ") + std::string(one.name) + " is " +
-                      lightLevels(mine) + ", expected " + lightLevels(theirs);
+            names.emplace_back(one.name);
+            values.push_back(names.back() + " " + levels(mine));
+            expected.push_back(names.back() + " " + levels(theirs));
             wrong.push_back(one.at);
         }
         if (wrong.empty()) return;
         say("light.color", lamp,
-            "has another " + names + (wrong.size() > 1 ? " colours" : " colour"), values, names,
-            [lamp, wrong, wanted](Outline& o) {
+            {wrong.size() > 1
+                 ? causeMessage<"part.predicate/light-colors">("channels"_arg = listOf(names))
+                 : causeMessage<"part.predicate/light-color">("channel"_arg = names.front()),
+             twoValues(joined(values, ", "), joined(expected, ", "))},
+            joined(names, " "), [lamp, wrong, wanted](Outline& o) {
                 for (const auto& at : wrong)
                     o.lamps[static_cast<std::size_t>(lamp)].light.*at = wanted.*at;
             });
@@ -338,13 +337,12 @@ std::vector<Fix> explainCamera(const SearchContext& context, const Outline& mine
     std::vector<Fix> out;
     if (!context.theirs.rest.camera) return out;
     const scene::Camera& wanted = *context.theirs.rest.camera;
-    const auto say = [&](const char* code, const std::string& what, const std::string& values,
+    const auto say = [&](const char* code, CauseWords words,
                          std::function<void(scene::Camera&)> change) {
         Fix fix;
         fix.code = code;
-        fix.who = "the camera";
-        fix.what = what;
-        fix.values = values;
+        fix.who = causeMessage<"part.who/camera">();
+        fix.words = std::move(words);
         fix.kind = code;
         fix.where = mine.rest.camera ? mine.rest.camera->where : Location{};
         fix.apply = [change = std::move(change)](Outline& o) {
@@ -354,18 +352,14 @@ std::vector<Fix> explainCamera(const SearchContext& context, const Outline& mine
         out.push_back(std::move(fix));
     };
     if (!mine.rest.camera) {
-        say("camera.missing", "is missing", "", [wanted](scene::Camera& c) { c = wanted; });
+        say("camera.missing", {causeMessage<"part.predicate/missing">(), {}},
+            [wanted](scene::Camera& c) { c = wanted; });
         return out;
     }
     const scene::Camera& given = *mine.rest.camera;
     const auto vector = [&](const char* code, const std::string& name, const glm::dvec3& from,
                             const glm::dvec3& to, glm::dvec3 scene::Camera::*at) {
-        const Slip slip = slipBetween(scene::Translate{from}, scene::Translate{to}, true);
-        std::string what = slip.what;
-        const std::string word = "the translate";
-        const std::size_t found = what.find(word);
-        if (found != std::string::npos) what.replace(found, word.size(), "its " + name);
-        say(code, what, "is " + shortNumbers(from) + ", expected " + shortNumbers(to),
+        say(code, {slipOfVector(from, to, name).words().finding, twoValues(from, to)},
             [at, to](scene::Camera& c) { c.*at = to; });
     };
     const double reach = kSameLength * context.sceneSize;
@@ -382,17 +376,19 @@ std::vector<Fix> explainCamera(const SearchContext& context, const Outline& mine
         const double degrees = given.fovDeg * 180.0 / std::numbers::pi;
         const bool isRadians = std::abs(degrees - wanted.fovDeg) < 0.02 * wanted.fovDeg;
         say(isRadians ? "camera.fov-radians" : "camera.fov",
-            isRadians                      ? "has its field of view in radians, not in degrees"
-            : given.fovDeg > wanted.fovDeg ? "has too large a field of view"
-                                           : "has too small a field of view",
-            "is " + shortNumber(given.fovDeg) + ", expected " + shortNumber(wanted.fovDeg),
+            {isRadians                      ? causeMessage<"part.predicate/fov-radians">()
+             : given.fovDeg > wanted.fovDeg ? causeMessage<"part.predicate/fov-large">()
+                                            : causeMessage<"part.predicate/fov-small">(),
+             twoValues(given.fovDeg, wanted.fovDeg)},
             [fov = wanted.fovDeg](scene::Camera& c) { c.fovDeg = fov; });
     }
     if (std::abs(wanted.near - given.near) > 1e-6 * wanted.near ||
         std::abs(wanted.far - given.far) > 1e-6 * wanted.far)
-        say("camera.range", "has other distances near and far",
-            "near and far are " + shortNumber(given.near) + " and " + shortNumber(given.far) +
-                ", expected " + shortNumber(wanted.near) + " and " + shortNumber(wanted.far),
+        say("camera.range",
+            {causeMessage<"part.predicate/range">(),
+             causeMessage<"part.values/range">(
+                 "near"_arg = shortNumber(given.near), "far"_arg = shortNumber(given.far),
+                 "first"_arg = shortNumber(wanted.near), "last"_arg = shortNumber(wanted.far))},
             [wanted](scene::Camera& c) {
                 c.near = wanted.near;
                 c.far = wanted.far;

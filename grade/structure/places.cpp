@@ -150,11 +150,10 @@ class Search {
         for (Link& link : edit.links) link.id = mine_.nextLink++;
         Fix fix;
         fix.code = edit.slip.code;
-        fix.what = edit.slip.what;
-        fix.values = edit.slip.values;
+        fix.words = edit.slip.words();
         fix.kind = edit.slip.code + " " + edit.slip.kind;
         const bool isItem = edit.kind == Edit::Kind::hangItem;
-        fix.who = isItem ? nameOfItem(mine_, edit.item) : nameOfNode(mine_, edit.node);
+        fix.who = isItem ? nameOfItem(mine_, edit.item) : nameOfNodeAlone(mine_, edit.node);
         fix.where = placeOf(edit);
         fix.apply = [edit](Outline& outline) { applyTo(outline, edit); };
         // It concerns everything below.

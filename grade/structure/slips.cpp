@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 #include <vector>
+
+#include "core/text.h"
+#include "grade/structure/messages.h"
 
 namespace farol::grade {
 namespace {
@@ -40,22 +42,49 @@ glm::dvec3 unitOf(const glm::dvec3& v) {
     return length > 0.0 ? v / length : glm::dvec3(0, 1, 0);
 }
 
-std::string joinedNames(const std::vector<int>& axes) {
-    static constexpr std::array<char, 3> kNames{'x', 'y', 'z'};
-    std::string out;
-    for (std::size_t i = 0; i < axes.size(); ++i)
-        out += std::string(i == 0                 ? ""
-                           : i + 1 == axes.size() ? " and "
-                                                  : ", ") +
-               kNames[static_cast<std::size_t>(axes[i])];
-    return out;
+std::vector<std::string> namesOf(const std::vector<int>& axes) {
+    std::vector<std::string> names;
+    for (const int axis : axes) names.emplace_back(1, static_cast<char>('x' + axis));
+    return names;
 }
 
-/// Vectors of a translate or a scale.
-Slip slipOfVector(const glm::dvec3& mine, const glm::dvec3& goal, const std::string& word) {
-    Slip out;
-    const auto values = [&](const glm::dvec3& right) {
-        return "is " + shortNumbers(mine) + ", expected " + shortNumbers(right);
+Message twoTransforms(const Transform& mine, const Transform& right) {
+    return causeMessage<"part.values/two">("value"_arg = textOf(mine),
+                                           "expected"_arg = textOf(right));
+}
+
+/// A finding without arguments.
+template <FixedString kId>
+CauseWords plain(const Message& values = {}) {
+    return {causeMessage<kId>(), values};
+}
+
+/// The values of one axis or several; `axes` is not empty.
+CauseWords wordsOfValue(const glm::dvec3& mine, const glm::dvec3& goal, const glm::dvec3& right,
+                        const std::vector<int>& axes, const std::string& element) {
+    const Message values = twoValues(mine, right);
+    if (axes.size() > 1)
+        return {causeMessage<"part.finding/values">("axes"_arg = listOf(namesOf(axes)),
+                                                    "element"_arg = element),
+                values};
+    const std::string axis = namesOf(axes).front();
+    const double from = mine[axes.front()], to = goal[axes.front()];
+    if (from * to < 0.0)
+        return {causeMessage<"part.finding/value-sign">("axis"_arg = axis, "element"_arg = element),
+                values};
+    if (std::abs(from) > std::abs(to))
+        return {
+            causeMessage<"part.finding/value-large">("axis"_arg = axis, "element"_arg = element),
+            values};
+    return {causeMessage<"part.finding/value-small">("axis"_arg = axis, "element"_arg = element),
+            values};
+}
+
+}  // namespace
+
+Slip slipOfVector(const glm::dvec3& mine, const glm::dvec3& goal, const std::string& element) {
+    const auto made = [&](const glm::dvec3& v) {
+        return element == "scale" ? Transform(Scale{v}) : Transform(Translate{v});
     };
     const double scale = std::max({glm::length(mine), glm::length(goal), 1e-9});
     std::vector<int> turned, other;
@@ -68,66 +97,100 @@ Slip slipOfVector(const glm::dvec3& mine, const glm::dvec3& goal, const std::str
     }
     if (other.empty() && !turned.empty()) {
         glm::dvec3 right = mine;
-        for (const int axis : turned) right[axis] = -right[axis];
+        std::string kind = element + " sign";
+        for (const int axis : turned) {
+            right[axis] = -right[axis];
+            kind += " " + std::to_string(axis);
+        }
         return {"transform.sign",
-                joinedNames(turned) + " of the " + word +
-                    (turned.size() > 1 ? " have the wrong sign" : " has the wrong sign"),
-                values(right),
-                word + " sign " + joinedNames(turned),
-                0.9,
-                word == "scale" ? Transform(Scale{right}) : Transform(Translate{right})};
+                [=]() -> CauseWords {
+                    const Message values = twoValues(mine, right);
+                    if (turned.size() > 1)
+                        return {causeMessage<"part.finding/signs">(
+                                    "axes"_arg = listOf(namesOf(turned)), "element"_arg = element),
+                                values};
+                    return {causeMessage<"part.finding/sign">("axis"_arg = namesOf(turned).front(),
+                                                              "element"_arg = element),
+                            values};
+                },
+                kind, 0.9, made(right)};
     }
-    const auto made = [&](const glm::dvec3& v) {
-        return word == "scale" ? Transform(Scale{v}) : Transform(Translate{v});
-    };
     for (const auto& order : {std::array{1, 0, 2}, {0, 2, 1}, {2, 1, 0}, {1, 2, 0}, {2, 0, 1}}) {
         const glm::dvec3 right(mine[order[0]], mine[order[1]], mine[order[2]]);
         if (!isNear(right, goal) || isNear(right, mine)) continue;
         return {"transform.coordinates",
-                "coordinates of the " + word + " are exchanged",
-                values(right),
-                word + " coordinates",
-                1.0,
-                made(right)};
+                [=]() -> CauseWords {
+                    return {causeMessage<"part.finding/coordinates">("element"_arg = element),
+                            twoValues(mine, right)};
+                },
+                element + " coordinates", 1.0, made(right)};
     }
     for (const double factor : {10.0, 0.1, 100.0, 0.01})
         if (isNear(mine * factor, goal) && glm::length(mine) > 0.0)
             return {"transform.magnitude",
-                    "the numbers of the " + word + " are " +
-                        (factor < 1.0 ? "too large, " : "too small, ") +
-                        (factor == 10.0 || factor == 0.1 ? "ten" : "a hundred") + " times",
-                    values(mine * factor),
-                    word + " magnitude",
-                    0.95,
-                    made(mine * factor)};
-    if (word == "scale" && mine.x * mine.y * mine.z != 0.0 && isNear(1.0 / mine, goal))
+                    [=]() -> CauseWords {
+                        const int times = factor == 10.0 || factor == 0.1 ? 10 : 100;
+                        const Message values = twoValues(mine, mine * factor);
+                        if (factor < 1.0)
+                            return {causeMessage<"part.finding/numbers-large">(
+                                        "element"_arg = element, "factor"_arg = times),
+                                    values};
+                        return {causeMessage<"part.finding/numbers-small">("element"_arg = element,
+                                                                           "factor"_arg = times),
+                                values};
+                    },
+                    element + " magnitude", 0.95, made(mine * factor)};
+    if (element == "scale" && mine.x * mine.y * mine.z != 0.0 && isNear(1.0 / mine, goal))
         return {"transform.inverse",
-                "the scale is the inverse of what it should be",
-                values(1.0 / mine),
-                "scale inverse",
-                1.0,
-                made(1.0 / mine)};
+                [=] { return plain<"part.finding/inverse">(twoValues(mine, 1.0 / mine)); },
+                "scale inverse", 1.0, made(1.0 / mine)};
     glm::dvec3 right = goal;
     for (int axis = 0; axis < 3; ++axis)
         right[axis] = isNear(mine[axis], goal[axis], scale * 0.1) ? mine[axis] : tidy(goal[axis]);
     std::vector<int> apart = other;
     apart.insert(apart.end(), turned.begin(), turned.end());
     std::sort(apart.begin(), apart.end());
-    std::string way;
-    if (apart.size() == 1) {
-        const double from = mine[apart[0]], to = goal[apart[0]];
-        if (from * to < 0.0)
-            way = ", with the sign";
-        else
-            way = std::abs(from) > std::abs(to) ? ": too large" : ": too small";
+    if (apart.empty()) {  // all within rounding: the one that is farthest off
+        const glm::dvec3 off = glm::abs(mine - goal);
+        apart.push_back(off.x >= off.y && off.x >= off.z ? 0 : off.y >= off.z ? 1 : 2);
     }
-    return {"transform.value",
-            joinedNames(apart) + " of the " + word +
-                (apart.size() > 1 ? " have another value" : " has another value") + way,
-            values(right),
-            word + " value " + shortNumbers(right),
-            1.25,
-            made(right)};
+    return {"transform.value", [=] { return wordsOfValue(mine, goal, right, apart, element); },
+            element + " value " + shortNumbers(right), 1.25, made(right)};
+}
+
+namespace {
+
+Slip slipOfAngle(const Rotate& mine, const Rotate& goal) {
+    using Words = CauseWords (*)(const Message&);
+    const auto slip = [&](const char* code, Words words, const std::string& kind, double effort,
+                          double right) -> Slip {
+        return {code, [=, is = mine.angleDeg] { return words(twoValues(is, right)); }, kind, effort,
+                Rotate{right, mine.axis}};
+    };
+    if (sameAngle(-mine.angleDeg, goal.angleDeg))
+        return slip("transform.angle-sign", plain<"part.finding/angle-sign">, "angle sign", 0.85,
+                    -mine.angleDeg);
+    const double degrees = mine.angleDeg * 180.0 / std::numbers::pi;
+    const double right = tidy(goal.angleDeg);
+    if (std::abs(degrees) > 1.0 && std::abs(mine.angleDeg) < 7.0 &&
+        std::abs(reduced(degrees - goal.angleDeg)) < 0.02 * std::abs(degrees) + 0.3)
+        return slip("transform.radians", plain<"part.finding/angle-radians">, "radians", 0.8,
+                    right);
+    for (const double factor : {10.0, 0.1})
+        if (std::abs(reduced(mine.angleDeg * factor - goal.angleDeg)) < 0.35 &&
+            std::abs(mine.angleDeg) < 720.0)
+            return slip("transform.magnitude",
+                        factor < 1.0 ? plain<"part.finding/angle-ten-large">
+                                     : plain<"part.finding/angle-ten-small">,
+                        "angle magnitude", 0.95, mine.angleDeg * factor);
+    if (sameAngle(180.0 - mine.angleDeg, goal.angleDeg) ||
+        sameAngle(90.0 - mine.angleDeg, goal.angleDeg))
+        return slip("transform.value", plain<"part.finding/angle-origin">, "angle from elsewhere",
+                    1.15, right);
+    const bool isLarge = std::abs(reduced(mine.angleDeg)) > std::abs(reduced(goal.angleDeg));
+    return slip("transform.value",
+                isLarge ? plain<"part.finding/angle-large"> : plain<"part.finding/angle-small">,
+                "angle value " + shortNumber(right), 1.2, right);
 }
 
 Slip slipOfRotation(const Rotate& mine, const Rotate& given) {
@@ -137,57 +200,7 @@ Slip slipOfRotation(const Rotate& mine, const Rotate& given) {
         goal.axis = -goal.axis;
         goal.angleDeg = -goal.angleDeg;
     }
-    const bool sameAxis = glm::dot(unitOf(goal.axis), axis) > 0.9998;
-    const auto about = [](const Rotate& r) {
-        return shortNumber(r.angleDeg) + " about " + shortNumbers(r.axis);
-    };
-    if (sameAxis) {
-        const auto values = [&](double angle) {
-            return "is " + shortNumber(mine.angleDeg) + ", expected " + shortNumber(angle);
-        };
-        if (sameAngle(-mine.angleDeg, goal.angleDeg))
-            return {"transform.angle-sign",
-                    "the angle of the rotate has the wrong sign",
-                    values(-mine.angleDeg),
-                    "angle sign",
-                    0.85,
-                    Rotate{-mine.angleDeg, mine.axis}};
-        const double degrees = mine.angleDeg * 180.0 / std::numbers::pi;
-        if (std::abs(degrees) > 1.0 && std::abs(mine.angleDeg) < 7.0 &&
-            std::abs(reduced(degrees - goal.angleDeg)) < 0.02 * std::abs(degrees) + 0.3)
-            return {"transform.radians",
-                    "the angle of the rotate is in radians, not in degrees",
-                    values(tidy(goal.angleDeg)),
-                    "radians",
-                    0.8,
-                    Rotate{tidy(goal.angleDeg), mine.axis}};
-        for (const double factor : {10.0, 0.1})
-            if (std::abs(reduced(mine.angleDeg * factor - goal.angleDeg)) < 0.35 &&
-                std::abs(mine.angleDeg) < 720.0)
-                return {"transform.magnitude",
-                        std::string("the angle of the rotate is ") +
-                            (factor < 1.0 ? "ten times too large" : "ten times too small"),
-                        values(mine.angleDeg * factor),
-                        "angle magnitude",
-                        0.95,
-                        Rotate{mine.angleDeg * factor, mine.axis}};
-        if (sameAngle(180.0 - mine.angleDeg, goal.angleDeg) ||
-            sameAngle(90.0 - mine.angleDeg, goal.angleDeg))
-            return {"transform.value",
-                    "the angle of the rotate is measured from another direction",
-                    values(tidy(goal.angleDeg)),
-                    "angle from elsewhere",
-                    1.15,
-                    Rotate{tidy(goal.angleDeg), mine.axis}};
-        return {"transform.value",
-                std::string("the angle of the rotate has another value: too ") +
-                    (std::abs(reduced(mine.angleDeg)) > std::abs(reduced(goal.angleDeg)) ? "large"
-                                                                                         : "small"),
-                values(tidy(goal.angleDeg)),
-                "angle value " + shortNumber(tidy(goal.angleDeg)),
-                1.2,
-                Rotate{tidy(goal.angleDeg), mine.axis}};
-    }
+    if (glm::dot(unitOf(goal.axis), axis) > 0.9998) return slipOfAngle(mine, goal);
     glm::dvec3 turnAxis = goal.axis;
     double angle = goal.angleDeg;
     if (sameAngle(-angle, mine.angleDeg) && !sameAngle(angle, mine.angleDeg)) {
@@ -197,19 +210,19 @@ Slip slipOfRotation(const Rotate& mine, const Rotate& given) {
     if (sameAngle(angle, mine.angleDeg)) {
         glm::dvec3 right = unitOf(turnAxis);
         for (int i = 0; i < 3; ++i) right[i] = tidy(right[i]);
+        const Rotate turned{mine.angleDeg, right};
         return {"transform.axis",
-                "the rotate turns about the wrong axis",
-                "is " + about(mine) + ", expected " + about({mine.angleDeg, right}),
-                "rotate axis",
-                0.95,
-                Rotate{mine.angleDeg, right}};
+                [=] { return plain<"part.finding/axis">(twoTransforms(mine, turned)); },
+                "rotate axis", 0.95, turned};
     }
     return {"transform.value",
-            "the rotate has another angle and another axis",
-            "is " + about(mine) + ", expected " + about(goal),
-            "rotate value",
-            1.6,
-            goal};
+            [=] { return plain<"part.finding/angle-axis">(twoTransforms(mine, goal)); },
+            "rotate value", 1.6, goal};
+}
+
+Message twoTimes(double mine, double right) {
+    return causeMessage<"part.values/seconds">("value"_arg = shortNumber(mine),
+                                               "expected"_arg = shortNumber(right));
 }
 
 Slip slipOfSpin(const Spin& mine, const Spin& given) {
@@ -217,30 +230,22 @@ Slip slipOfSpin(const Spin& mine, const Spin& given) {
     if (glm::dot(unitOf(goal.axis), unitOf(mine.axis)) < -0.999) goal = {-goal.seconds, -goal.axis};
     if (glm::dot(unitOf(goal.axis), unitOf(mine.axis)) < 0.9998)
         return {"animation.axis",
-                "the rotate over time turns about the wrong axis",
-                "is about " + shortNumbers(mine.axis) + ", expected " + shortNumbers(given.axis),
-                "spin axis",
-                0.95,
-                given};
+                [=] { return plain<"part.finding/spin-axis">(twoTransforms(mine, given)); },
+                "spin axis", 0.95, given};
     if (isNear(-mine.seconds, goal.seconds, std::abs(goal.seconds)))
-        return {"animation.direction",
-                "the rotate over time turns the other way",
-                "",
-                "spin direction",
-                0.9,
-                goal};
-    return {
-        "animation.time",
-        std::string("the rotate over time is too ") +
-            (std::abs(mine.seconds) > std::abs(goal.seconds) ? "slow" : "fast"),
-        "takes " + shortNumber(mine.seconds) + " s, expected " + shortNumber(goal.seconds) + " s",
-        "spin time",
-        1.0,
-        goal};
+        return {"animation.direction", [] { return plain<"part.finding/spin-direction">(); },
+                "spin direction", 0.9, goal};
+    return {"animation.time",
+            [=] {
+                const Message values = twoTimes(mine.seconds, goal.seconds);
+                return std::abs(mine.seconds) > std::abs(goal.seconds)
+                           ? plain<"part.finding/spin-slow">(values)
+                           : plain<"part.finding/spin-fast">(values);
+            },
+            "spin time", 1.0, goal};
 }
 
 Slip slipOfCurve(const FollowCurve& mine, const FollowCurve& goal) {
-    const bool sameTime = isNear(mine.seconds, goal.seconds, goal.seconds);
     const auto samePoints = [](const std::vector<glm::dvec3>& a, const std::vector<glm::dvec3>& b) {
         if (a.size() != b.size()) return false;
         for (std::size_t i = 0; i < a.size(); ++i)
@@ -248,44 +253,40 @@ Slip slipOfCurve(const FollowCurve& mine, const FollowCurve& goal) {
         return true;
     };
     if (samePoints(mine.points, goal.points)) {
-        if (!sameTime)
+        const double from = mine.seconds, to = goal.seconds;
+        if (!isNear(from, to, to))
             return {"animation.time",
-                    std::string("the translate along points is too ") +
-                        (mine.seconds > goal.seconds ? "slow" : "fast"),
-                    "takes " + shortNumber(mine.seconds) + " s, expected " +
-                        shortNumber(goal.seconds) + " s",
-                    "curve time",
-                    1.0,
-                    goal};
+                    [=] {
+                        return from > to ? plain<"part.finding/curve-slow">(twoTimes(from, to))
+                                         : plain<"part.finding/curve-fast">(twoTimes(from, to));
+                    },
+                    "curve time", 1.0, goal};
         return {"animation.align",
-                mine.align ? "the object turns with its curve, and should not (align)"
-                           : "the object does not turn with its curve (align)",
-                "",
-                "curve align",
-                0.9,
-                goal};
+                [aligned = mine.align] {
+                    return aligned ? plain<"part.finding/align-extra">()
+                                   : plain<"part.finding/align">();
+                },
+                "curve align", 0.9, goal};
     }
     std::vector<glm::dvec3> back(mine.points.rbegin(), mine.points.rend());
     for (std::size_t i = 0; i < back.size(); ++i) {
         if (samePoints(back, goal.points))
-            return {"animation.direction",
-                    "the points of the curve run the other way",
-                    "",
-                    "curve direction",
-                    0.95,
-                    goal};
+            return {"animation.direction", [] { return plain<"part.finding/curve-direction">(); },
+                    "curve direction", 0.95, goal};
         std::rotate(back.begin(), back.begin() + 1, back.end());
     }
-    if (mine.points.size() != goal.points.size())
-        return {"animation.points",
-                mine.points.size() < goal.points.size() ? "points of the curve are missing"
-                                                        : "the curve has too many points",
-                "has " + std::to_string(mine.points.size()) + ", expected " +
-                    std::to_string(goal.points.size()),
-                "curve points",
-                1.0,
-                goal};
-    return {"animation.points", "points of the curve lie elsewhere", "", "curve points", 1.0, goal};
+    const std::size_t from = mine.points.size(), to = goal.points.size();
+    if (from == to)
+        return {"animation.points", [] { return plain<"part.finding/points">(); }, "curve points",
+                1.0, goal};
+    return {"animation.points",
+            [=] {
+                const Message values =
+                    causeMessage<"part.values/count">("value"_arg = from, "expected"_arg = to);
+                return from < to ? plain<"part.finding/points-missing">(values)
+                                 : plain<"part.finding/points-extra">(values);
+            },
+            "curve points", 1.0, goal};
 }
 
 }  // namespace
@@ -313,12 +314,88 @@ Slip slipBetween(const Transform& mine, const Transform& goal, bool isExact) {
     out = {moves && !moved   ? "animation.missing"
            : moved && !moves ? "animation.extra"
                              : "transform.kind",
-           "it is a " + wordOf(mine) + ", expected a " + wordOf(goal),
-           "is " + textOf(mine) + ", expected " + textOf(goal),
-           "kind " + wordOf(mine) + " " + wordOf(goal),
-           1.3 + more,
+           [mine, goal]() -> CauseWords {
+               return {causeMessage<"part.finding/element">("value"_arg = elementOf(mine),
+                                                            "expected"_arg = elementOf(goal)),
+                       twoTransforms(mine, goal)};
+           },
+           "kind " + std::to_string(mine.index()) + " " + std::to_string(goal.index()), 1.3 + more,
            goal};
     return out;
+}
+
+Slip slipOfExtra(const Transform& extra, double effort) {
+    return {"transform.extra",
+            [extra]() -> CauseWords {
+                return {
+                    causeMessage<"part.finding/element-extra">("element"_arg = elementOf(extra)),
+                    causeMessage<"part.values/is">("value"_arg = textOf(extra))};
+            },
+            "extra " + std::to_string(extra.index()),
+            effort,
+            {}};
+}
+
+Slip slipOfMissing(const Transform& missing, double effort) {
+    const bool moves = missing.index() == 1 || missing.index() == 3;
+    return {moves ? "animation.missing" : "transform.missing",
+            [missing]() -> CauseWords {
+                return {causeMessage<"part.finding/element-missing">("element"_arg =
+                                                                         elementOf(missing)),
+                        causeMessage<"part.values/expected">("expected"_arg = textOf(missing))};
+            },
+            "missing " + std::to_string(missing.index()),
+            effort,
+            {}};
+}
+
+Slip slipOfOrder(const Transform& first, const Transform& second, double effort) {
+    return {"transform.order",
+            [first, second]() -> CauseWords {
+                return {causeMessage<"part.finding/order-two">("first"_arg = elementOf(first),
+                                                               "second"_arg = elementOf(second)),
+                        {}};
+            },
+            "order " + std::to_string(first.index()) + " " + std::to_string(second.index()),
+            effort,
+            {}};
+}
+
+Slip slipOfWhole(const Transform& needed) {
+    const char* const code = needed.index() == 0   ? "whole.moved"
+                             : needed.index() == 2 ? "whole.turned"
+                                                   : "whole.scaled";
+    return {code,
+            [needed]() -> CauseWords {
+                const Message values =
+                    causeMessage<"part.values/needs">("transforms"_arg = textOf(needed));
+                if (needed.index() == 0)
+                    return {causeMessage<"part.finding/whole-moved">(), values};
+                if (needed.index() == 2)
+                    return {causeMessage<"part.finding/whole-turned">(), values};
+                return {causeMessage<"part.finding/whole-scaled">(), values};
+            },
+            code,
+            1.2,
+            {}};
+}
+
+Slip slipOfPlace(bool isWhole, const std::vector<Transform>& parts, double effort) {
+    return {isWhole ? "whole.moved" : "transform.other",
+            [isWhole, parts]() -> CauseWords {
+                const std::string all =
+                    joined(parts, ", ", [](const auto& part) { return textOf(part).text; });
+                if (isWhole)
+                    return {causeMessage<"part.finding/whole-place">(),
+                            causeMessage<"part.values/needs">("transforms"_arg = uncut(all))};
+                return {causeMessage<"part.finding/place">(),
+                        parts.empty()
+                            ? Message()
+                            : causeMessage<"part.values/expected">("expected"_arg = uncut(all))};
+            },
+            isWhole ? "whole.moved" : "place",
+            effort,
+            {}};
 }
 
 bool isSameTransform(const Transform& a, const Transform& b) {
@@ -352,53 +429,12 @@ bool isSameTransform(const Transform& a, const Transform& b) {
     return true;
 }
 
-std::string wordOf(const Transform& transform) {
-    constexpr std::array<const char*, 5> kWords{"translate", "translate along points", "rotate",
-                                                "rotate over time", "scale"};
-    return kWords[transform.index()];
-}
-
-std::string textOf(const Transform& transform) {
-    struct Words {
-        std::string operator()(const Translate& t) const {
-            return "translate " + shortNumbers(t.offset);
-        }
-        std::string operator()(const FollowCurve& t) const {
-            return "translate along " + std::to_string(t.points.size()) + " points in " +
-                   shortNumber(t.seconds) + " s";
-        }
-        std::string operator()(const Rotate& t) const {
-            return "rotate " + shortNumber(t.angleDeg) + " about " + shortNumbers(t.axis);
-        }
-        std::string operator()(const Spin& t) const {
-            return "rotate in " + shortNumber(t.seconds) + " s about " + shortNumbers(t.axis);
-        }
-        std::string operator()(const Scale& t) const { return "scale " + shortNumbers(t.factors); }
-    };
-    return std::visit(Words{}, transform);
-}
-
 double tidy(double value) {
     for (const double step : {1.0, 0.1, 0.01, 0.001}) {
         const double round = std::round(value / step) * step;
         if (std::abs(round - value) < 2e-4 * std::max(1.0, std::abs(value))) return round;
     }
     return value;
-}
-
-std::string shortNumber(double value) {
-    char text[64];
-    std::snprintf(text, sizeof text, "%.4f", value);
-    std::string out = text;
-    if (out.find('.') != std::string::npos) {
-        out.erase(out.find_last_not_of('0') + 1);
-        if (out.back() == '.') out.pop_back();
-    }
-    return out == "-0" ? "0" : out;
-}
-
-std::string shortNumbers(const glm::dvec3& vector) {
-    return shortNumber(vector.x) + " " + shortNumber(vector.y) + " " + shortNumber(vector.z);
 }
 
 }  // namespace farol::grade

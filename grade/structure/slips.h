@@ -1,40 +1,45 @@
 #pragma once
 
+#include <functional>
 #include <glm/glm.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "scene/scene.h"
+#include "grade/structure/cause_text.h"
 
 namespace farol::grade {
 
 /// The error of one transform, where another would be right.
 struct Slip {
-    std::string code;        ///< "transform.angle-sign"
-    std::string what;        ///< "the angle has the wrong sign"
-    std::string values;      ///< "is -50, expected 50"; may be empty
+    std::string code;  ///< "transform.angle-sign"
+    /// Makes the words: once, for what is reported. The search discards most slips.
+    std::function<CauseWords()> words;
     std::string kind;        ///< equal for the same misunderstanding at another place
     double effort = 1.0;     ///< how unlikely a person is to make it
     scene::Transform right;  ///< the transform as it should be, to the digits of a sign or factor
 };
 
+/// Changes of the whole scene: one transform that makes up for it.
+Slip slipOfWhole(const scene::Transform& needed);
+/// Several transforms, which no slip of one of them explains; none: they are not shown.
+Slip slipOfPlace(bool isWhole, const std::vector<scene::Transform>& parts, double effort);
+
+/// Slips of transforms that are too much, missing, or in another order than the one after them.
+Slip slipOfExtra(const scene::Transform& extra, double effort);
+Slip slipOfMissing(const scene::Transform& missing, double effort);
+Slip slipOfOrder(const scene::Transform& first, const scene::Transform& second, double effort);
+
 /// Explains `mine` by `goal`: the same kind of transform with other numbers, or another kind.
 /// `isExact`: `goal` is written so in the reference; else it was computed, and is rounded.
 Slip slipBetween(const scene::Transform& mine, const scene::Transform& goal, bool isExact);
 
+/// The same for a vector that an element or attribute holds: "translate", "scale", "position". The
+/// right one is a Scale where it is "scale", else a Translate.
+Slip slipOfVector(const glm::dvec3& mine, const glm::dvec3& goal, const std::string& element);
+
 /// Returns whether both are one transform but for rounding.
 bool isSameTransform(const scene::Transform& a, const scene::Transform& b);
-
-/// "translate", "rotate", "scale", "rotate over time", "translate along points".
-std::string wordOf(const scene::Transform& transform);
-/// "translate 1 0 0", "rotate 45 about 0 1 0".
-std::string textOf(const scene::Transform& transform);
-
-/// A number as people write it: at most four digits after the point, none that say nothing.
-std::string shortNumber(double value);
-/// Its numbers with blanks between them: "1 0.5 0".
-std::string shortNumbers(const glm::dvec3& vector);
 
 /// Returns the nearest round number, where the value is about one.
 double tidy(double value);

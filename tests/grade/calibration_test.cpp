@@ -36,7 +36,7 @@ bool names(const grade::Grade& grade, const Variant& variant) {
 
 std::string told(const grade::Grade& grade) {
     std::string out;
-    for (const auto& one : grade.causes) out += "\n    " + one.code + ": " + one.message;
+    for (const auto& one : grade.causes) out += "\n    " + one.code + ": " + one.message.text;
     for (const auto& one : grade.criteria)
         if (one.points < one.most) out += "\n    " + one.reason;
     for (const auto& one : grade.diagnostics)

@@ -102,7 +102,7 @@ TEST_CASE("a class has the marks that a fair teacher gives") {
             if (grade.notGraded) mark.causes.push_back(grade.notGraded->reason);
             for (const grade::GradedCause& one : grade.causes) {
                 std::ostringstream text;
-                text << one.message << " (-" << one.points << ")";
+                text << one.message.text << " (-" << one.points << ")";
                 mark.causes.push_back(text.str());
             }
             if (grade.penalty > 0.0)

@@ -199,14 +199,14 @@ TEST_CASE("planted causes are found with their lines, and marks follow their sev
                 if (!grade.causes[c].isSeen && !isUsed[c]) continue;  // reported, and costs nothing
                 ++reported;
                 right += isUsed[c] ? 1 : 0;
-                if (!isUsed[c]) log += "  not planted: " + grade.causes[c].message + "\n";
+                if (!isUsed[c]) log += "  not planted: " + grade.causes[c].message.text + "\n";
             }
             if (wordy != nullptr && (!log.empty() || grade.unexplained > 0.0)) {
                 std::cout << reference.name << " " << n << ": loss " << loss << ", severity "
                           << severity << ", unexplained " << grade.unexplained << "\n"
                           << log;
                 for (const auto& one : grade.causes)
-                    std::cout << "      " << one.message << " -" << one.points << "\n";
+                    std::cout << "      " << one.message.text << " -" << one.points << "\n";
                 std::ofstream(std::string(wordy) + "/" + std::to_string(scenes) + "-" +
                               std::to_string(n) + ".xml")
                     << composed.xml;

@@ -4,7 +4,7 @@
 
 namespace farol {
 
-/// RFC 4648, with padding: what a data: URL takes.
+/// Encodes in base64 with padding (RFC 4648), for data: URLs.
 std::string base64(const std::string& bytes);
 
 }  // namespace farol

@@ -6,8 +6,8 @@
 #include <string>
 #include <string_view>
 
-/// JSON from outside: every bound is checked while the text is read, before memory is allocated
-/// for what it describes. And JSON to the outside, whatever bytes its strings hold.
+/// Parses untrusted JSON: checks every limit while reading, before it allocates memory for a
+/// value. Writes JSON from strings of any bytes.
 namespace farol {
 
 struct JsonLimits {

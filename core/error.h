@@ -52,7 +52,7 @@ inline Diagnostic diagnosticOf(Severity severity, Message message, Location wher
 }
 
 /// The caller's fault, thrown where it is found and caught once at the edge (cli, server).
-/// The families of codes and what they mean to a client:
+/// The families of codes:
 ///   option.*  a picture option or argument       xml.*    the document is not readable XML
 ///   scene.*   readable XML that is not a scene    asset.*  a file that is missing or unreadable
 ///   shape.*   a primitive's arguments             mesh.*   a damaged mesh file

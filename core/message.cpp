@@ -39,7 +39,7 @@ MessageArguments nested(std::string_view name, const std::string& text, const st
     return all;
 }
 
-/// Renders one text; `prefix` is what the names of its arguments begin with.
+/// Renders one text; the names of its arguments begin with `prefix`.
 class TemplateRenderer {
   public:
     TemplateRenderer(const MessageArguments& arguments, const FindTemplate& find)

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-/// Text helpers, one of a kind. Letters, digits and blanks are those of ASCII, whatever the locale.
+/// Text helpers shared by all folders. Letters, digits and blanks are ASCII in any locale.
 namespace farol {
 
 constexpr bool isDigit(char c) { return c >= '0' && c <= '9'; }

@@ -35,7 +35,7 @@ struct FormatSpec {
 /// Everything that is known of the formats. Flags, parameters, negotiation, file endings, help and
 /// the description of the interface follow. Of formats that a client likes alike the first is sent.
 inline constexpr std::array kFormats{
-    // Four bytes a pixel, and what deflate adds where nothing can be packed.
+    // Four bytes a pixel, and deflate's overhead for incompressible data.
     FormatSpec{"png", "image/png", "png", false, "\x89PNG\r\n\x1a\n", 4.5,
                [](const Image& image, int) { return encodePng(image); }},
     // Three samples of at most 18 bits each by the standard Huffman tables, as an image's energy is

@@ -36,8 +36,8 @@ std::vector<Span> spans(int source, int target) {
     return all;
 }
 
-/// Of four texels each, all weights alike: what the general case comes to, without its divisions.
-/// `scale` makes 1/256 of the texels' values.
+/// Averages four texels of equal weight; equals the general case without its divisions.
+/// `scale` converts the texels' values to units of 1/256.
 template <typename Texel>
 void halveEven(const Texel* from, unsigned scale, Fixed& to) {
     const std::size_t stride = static_cast<std::size_t>(to.width) * 8;

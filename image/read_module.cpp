@@ -39,7 +39,7 @@ void silenceGcrypt() {
 }
 
 ModuleRead load() {
-    buildId();  // of the program as it started, whatever it loads later
+    buildId();  // before dlopen: excludes the libraries that the module loads
     silenceGcrypt();
     void* module = dlopen(moduleFile(), RTLD_NOW | RTLD_LOCAL);
     void* function = module == nullptr ? nullptr : dlsym(module, kModuleRead);

@@ -67,7 +67,7 @@ std::uint64_t countRows(png_const_structrp png, png_const_inforp info, int passe
     return rows;
 }
 
-/// Called for each decoded row, before libpng decompresses what follows the last one.
+/// Called for each decoded row, before libpng decompresses the data after the last row.
 void countRow(png_structp png, png_row_infop, png_bytep) {
     Rows& rows = *static_cast<Rows*>(png_get_user_transform_ptr(png));
     if (--rows.left == 0) rows.source->isComplete = true;

@@ -1,4 +1,4 @@
-// The module: OpenImageIO and what it needs, apart from the program.
+// The module: links OpenImageIO and its dependencies, so that the program does not.
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 

@@ -77,8 +77,8 @@ struct Frame {
     }
 };
 
-/// The frame at lap fraction `u`, transported from u = 0. What a lap turns the up about the
-/// tangent (a curve in space does) is spread over the lap, so that laps join without a jump.
+/// Returns the frame at lap fraction `u`, transported from u = 0. Spreads the rotation of the up
+/// vector about the tangent over the lap (a curve in space has one): laps join without a jump.
 Frame frameAt(const std::vector<glm::dvec3>& points, double u) {
     const int steps =
         std::clamp(32 * static_cast<int>(std::min<std::size_t>(points.size(), 256)), 256, 8192);

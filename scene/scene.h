@@ -144,7 +144,7 @@ struct Model {
     std::optional<Material> material;
     std::optional<Texture> texture;
     bool twoSided = false;
-    bool autoLod = false;  ///< lod="auto": tessellate on demand, whatever counts are given
+    bool autoLod = false;  ///< lod="auto": tessellate on demand, overriding given counts
     std::string id, name;
     Location where;
 };
@@ -159,7 +159,7 @@ struct Scatter {
 struct Group {
     std::vector<Transform> transforms;   ///< each multiplies on the right, as OpenGL's stack does
     std::vector<Location> transformsAt;  ///< where each stands in its document; else empty
-    std::vector<Light> lights;           ///< light this group and what is below it only
+    std::vector<Light> lights;           ///< light this group and its descendants only
     std::vector<Model> models;
     std::vector<Group> groups;
     std::optional<Scatter> scatter;
@@ -214,7 +214,7 @@ struct RenderSettings {
     std::optional<bool> axes;
     std::optional<Viewer> viewer;
     std::optional<Specular> specular;
-    std::optional<glm::dvec2> timeRangeS;  ///< begin < end: what an animation or turntable shows
+    std::optional<glm::dvec2> timeRangeS;  ///< begin < end: span of an animation or turntable
     bool operator==(const RenderSettings&) const = default;
 };
 

@@ -196,7 +196,7 @@ void ArchiveAssets::load(const std::vector<std::string>& paths) const {
             throw Error(message<"bundle.damaged/lost">("path"_arg = path));
 }
 
-/// Adds a file's bytes to what is loaded. Throws as `load`.
+/// Adds a file's bytes to loaded_. Throws as `load`.
 void ArchiveAssets::keep(const std::string& path, const std::string& content) const {
     const auto [known, isNew] = loaded_.try_emplace(path);
     if (!isNew && known->second != content) {

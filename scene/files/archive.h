@@ -18,10 +18,10 @@ namespace farol::scene {
 bool isArchiveName(std::string_view path);
 
 /// The files of a zip (stored or deflated), tar, tar.gz, 7z or rar. Entries are listed first and
-/// read when they are asked for: of a whole project only what a scene needs is unpacked. A folder
-/// that holds everything is left out of the paths; what isClutter names is not listed. Archives in
-/// the archive, two deep, are folders of their name: "a.zip/scene.xml". Links to files of the
-/// archive are these files; other links, and devices, are left out.
+/// unpacked on demand: of a whole project only the files that a scene uses. A folder that holds
+/// everything is left out of the paths; clutter (isClutter) is not listed. Archives in the archive,
+/// two deep, are folders of their name: "a.zip/scene.xml". Links to files of the archive are these
+/// files; other links, and devices, are left out.
 /// Bounded before memory is allocated: entries listed (kMaxListed), bytes unpacked to reach an
 /// entry, and bytes used. `read` throws Error limit.bundle, bundle.damaged, bundle.entry
 /// (encrypted, or packed by a method that is not read), bundle.path (a name twice with different
@@ -36,7 +36,7 @@ class ArchiveAssets final : public Assets {
     std::optional<std::uint64_t> size(const std::string& path) const override;
     void prefetch(const std::vector<std::string>& paths) const override;
     std::string version(const std::string& path) const override;
-    /// The most that it may hold in memory, bytes: itself and what may be read of it.
+    /// Upper bound of its memory, bytes: the packed archive and its unpacked files.
     std::size_t maxBytes() const { return packed_ + allowed_; }
     /// Infos about archives in the archive that were left closed, and about links.
     const Diagnostics& findings() const { return findings_; }
@@ -64,8 +64,8 @@ class ArchiveAssets final : public Assets {
     mutable std::size_t used_ = 0;
 };
 
-/// The document of an archive and what its scenes need (neededFiles). Throws as ArchiveAssets,
-/// mainOf and readFiles do.
+/// Returns the document of an archive and the files its scenes need (neededFiles). Throws as
+/// ArchiveAssets, mainOf and readFiles do.
 Bundle readArchive(std::string_view bytes);
 
 }  // namespace farol::scene

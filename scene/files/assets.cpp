@@ -176,9 +176,9 @@ std::optional<std::string> FolderAssets::resolve(const std::string& path) const 
     return real.string();
 }
 
-// Looks at each entry once, folders before what is in them. `visit` gets its path and its type
-// (DT_*), and ends the walk by returning false. A folder that vanishes meanwhile or may not be read
-// is left out.
+// Visits each entry once, folders before their content. `visit` gets its path and its type
+// (DT_*), and ends the walk by returning false. Skips folders that vanish meanwhile or may not be
+// read.
 void FolderAssets::walk(const std::function<bool(const std::string&, int)>& visit) const {
     std::vector<std::string> folders;
     if (!root_.empty()) folders.push_back(root_);

@@ -78,8 +78,8 @@ class FolderAssets final : public Assets {
     /// Lists those whose path ends in `suffix`, sorted, kMaxListed at most. Links that lead out of
     /// the folder are left out.
     std::vector<Oddity> oddities(std::string_view suffix) const;
-    /// Returns what the entry at `path` is instead of a file; empty for a file, and where there is
-    /// none.
+    /// Returns the type of the entry at `path` if it is no file ("is a pipe"); empty for a file,
+    /// and where there is none.
     std::string oddityOf(const std::string& path) const;
     /// Throws std::system_error where the folder cannot be opened.
     void checkReadable() const;
@@ -97,8 +97,8 @@ class FolderAssets final : public Assets {
     std::string root_;
 };
 
-/// True for what systems and version control add beside a project's own files: anything in
-/// __MACOSX, .git, .svn or .hg, "._name", .DS_Store, Thumbs.db, desktop.ini. Nothing of it is ever
+/// True for files of operating systems and version control beside a project's own: anything in
+/// __MACOSX, .git, .svn or .hg, "._name", .DS_Store, Thumbs.db, desktop.ini. They are never
 /// listed.
 bool isClutter(std::string_view path);
 

@@ -35,7 +35,7 @@ std::vector<std::string> documentsOf(const Assets& files, const std::vector<std:
     return documents;
 }
 
-/// Adds the base names that a text may mean: what stands in quotes, each word, and the ends of
+/// Adds the base names that a text may mean: of quoted texts, of single words, and of the ends of
 /// lines.
 void addNames(std::string_view text, std::set<std::string>& names) {
     const std::optional<std::string> wide = utf16ToUtf8(text);

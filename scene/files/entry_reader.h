@@ -18,8 +18,8 @@ std::size_t maxUnpackedBytes(std::size_t packed);
 [[noreturn]] void tooManyEntries();
 
 /// The files and links of an archive one by one: zip (stored or deflated), tar, tar.gz, 7z, rar.
-/// Folders, devices and what isClutter names are left out. Bounded before allocation: entries,
-/// and bytes unpacked to reach an entry. Throws Error bundle.damaged, bundle.path (absolute or with
+/// Skips folders, devices and clutter (isClutter). Bounded before allocation: entries, and bytes
+/// unpacked to reach an entry. Throws Error bundle.damaged, bundle.path (absolute or with
 /// ".."), limit.bundle.
 class EntryReader {
   public:
@@ -28,8 +28,8 @@ class EntryReader {
     ~EntryReader();
     EntryReader(const EntryReader&) = delete;
     EntryReader& operator=(const EntryReader&) = delete;
-    /// Goes on to the next file or link; false at the end. What was not read of the last one is
-    /// skipped.
+    /// Advances to the next file or link; false at the end. Skips the unread rest of the current
+    /// one.
     bool next();
     const std::string& path() const { return path_; }
     /// The target of a link, symbolic or hard, as a path in the archive: "" where that is outside.

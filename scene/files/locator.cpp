@@ -207,7 +207,7 @@ std::optional<Locator::Found> Locator::look(const Wanted& wanted, const std::str
             if (from.empty()) break;
         }
     }
-    // 3 and 4: the files that share the longest end with what is written; of these, those that
+    // 3 and 4: the files that share the longest end with the written path; of these, those that
     // share the most folders with the document.
     if (namesakes().empty()) return std::nullopt;
     Wanted inside = wanted;

@@ -21,10 +21,10 @@ class Locator {
     /// `where.file` names by its shown name; every other one is named by its path.
     explicit Locator(const Assets& assets, DocumentPlace main = {});
 
-    /// Finds the file that the document `where.file` means by `path`. Adds what was not as written
-    /// at `where`: an info asset.in-parent, asset.case, asset.unicode, asset.percent or
-    /// asset.code-page, a warning asset.found-elsewhere. Returns nothing where there is none or,
-    /// with a warning asset.ambiguous, several of different bytes.
+    /// Finds the file that the document `where.file` means by `path`. Reports differences between
+    /// `path` and the file's path at `where`: an info asset.in-parent, asset.case, asset.unicode,
+    /// asset.percent or asset.code-page, a warning asset.found-elsewhere. Returns nothing if none
+    /// fits or, with a warning asset.ambiguous, if several of different bytes fit.
     std::optional<std::string> locate(const std::string& path, const Location& where,
                                       Diagnostics& diagnostics);
     /// As Assets::list.

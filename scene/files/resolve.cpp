@@ -56,9 +56,9 @@ class FileResolver {
         return message<"asset.missing/texture">("file"_arg = file, "fix"_arg = fix);
     }
 
-    /// A result holds for every model and texture of the same words in a document:
-    /// asking the bundle again would repeat its warnings. What is missing is reported at each
-    /// place.
+    /// Looks up each file name of a document once, because a second look-up would repeat the
+    /// locator's warnings, and stores the result in files_. Reports a missing file at each place
+    /// that names it.
     void resolveFile(const std::string& file, std::string& path, Use use, const Location& where) {
         const auto [known, fresh] = files_.try_emplace({where.file, file});
         if (fresh) {

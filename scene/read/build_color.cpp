@@ -10,7 +10,7 @@
 namespace farol::scene {
 namespace {
 
-/// Its rgb is what it starts with.
+/// A colour that cycles through the hues; rgb is its start.
 const Color kTurningHue{glm::vec3(1.0F, 0.0F, 0.0F), true};
 
 struct BasicColor {

@@ -196,8 +196,8 @@ void SceneBuilder::models(pugi::xml_node element, Group& group, GroupState& stat
     });
 }
 
-/// 1.57 and 3.14159 are right angles of somebody who thinks in radians: what is a multiple of 15
-/// degrees to a tenth of one, and no whole number of degrees, up to a full turn.
+/// Warns where an angle looks like radians (1.57, 3.14159): a fraction that, converted from
+/// radians, is within 0.1 degrees of a multiple of 15 degrees, up to a full turn.
 void SceneBuilder::warnIfRadians(const Values& given, std::string_view angle,
                                  std::string_view element) {
     constexpr double kStep = 15.0, kNear = 0.1;

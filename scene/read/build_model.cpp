@@ -171,7 +171,7 @@ void SceneBuilder::generatorElement(pugi::xml_node element, Model& model) {
     }
     std::string line = given.text("argv");
     if (lowerCase(words.front()).substr(0, 9) != "generator") line = "generator " + line;
-    // With a file name at the end it is what a generator comment is; without, a command.
+    // With a file name at the end it equals a generator comment; without, a command.
     const auto all = split(line);
     const bool namesFile = all.size() > 2 && all.back().find('.') != std::string_view::npos &&
                            !parseNumber(all.back()).problem.empty();

@@ -7,8 +7,8 @@
 
 namespace farol::scene {
 
-/// Collects what is found in one document and those it includes: bounded, in document order,
-/// warnings as errors when strict. Repeated repairs of the same kind are reported a few times only.
+/// Collects the findings of a document and its includes: bounded, in document order, warnings as
+/// errors when strict. Repeated repairs of the same kind are reported a few times only.
 class Findings {
   public:
     Findings(bool strict, int limit) : strict_(strict), limit_(limit) {}
@@ -32,8 +32,8 @@ class Findings {
     /// True once there are more findings than will be shown: costly hints are not worth making.
     bool crowded() const { return all_.size() >= static_cast<std::size_t>(limit_); }
 
-    /// Sorted by file (in order of appearance), line and column. Errors come before warnings in
-    /// the choice of what is shown; a closing note says how many are not.
+    /// Returns the findings by file (in order of appearance), line and column. Over the limit it
+    /// keeps errors before warnings; a closing note counts the dropped ones.
     Diagnostics take() const;
 
   private:

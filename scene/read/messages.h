@@ -4,7 +4,7 @@
 
 namespace farol::scene {
 
-/// Messages of scene/read, by code. Warnings say what the reader does instead.
+/// Messages of scene/read, by code. Warnings name the value or reading that is used instead.
 inline constexpr MessageRow kReadMessages[] = {
     {"asset.missing/scene", "no scene file \"{file}\"; add it beside the document", {"lamp.xml"}},
     {"limit.includes", "too many included files; at most {max}, nested {depth} deep", {"64", "8"}},

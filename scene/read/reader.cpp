@@ -51,7 +51,7 @@ Scene readDocument(std::string_view xml, const std::string& name, ReadSession& s
 }
 
 ReadResult read(std::string_view xml, const ReadOptions& options, const Assets& assets) {
-    // The reader walks groups by recursion: whatever the caller allows, the stack must do.
+    // The reader recurses into groups: cap the caller's limit to protect the stack.
     constexpr int kMaxDepth = 512;
     ReadOptions bounded = options;
     bounded.limits.depth = std::min(options.limits.depth, kMaxDepth);
@@ -77,7 +77,7 @@ ReadResult read(std::string_view xml, const ReadOptions& options, const Assets& 
     result.diagnostics = findings.take();
     const bool isScene = result.scene.where.line > 0;
     if (!findings.failed() || (bounded.leaveOut && isScene)) return result;
-    // A broken document decides over what a broken document seems to say.
+    // Faults of the XML come before faults of the scene, which they may cause.
     std::stable_partition(
         result.diagnostics.begin(), result.diagnostics.end(), [](const Diagnostic& one) {
             return one.severity == Severity::error && one.code.rfind("xml.", 0) == 0;

@@ -19,7 +19,7 @@ struct ReadLimits {
 struct ReadOptions {
     std::string name = "scene.xml";  ///< for locations
     bool strict = false;             ///< warnings become errors
-    /// Leaves out what cannot be read: errors stay in ReadResult::diagnostics. An element that is
+    /// Leaves out unreadable elements: errors stay in ReadResult::diagnostics. An element that is
     /// not closed ends where its parent ends.
     bool leaveOut = false;
     ReadLimits limits;
@@ -31,7 +31,7 @@ struct ReadResult {
     Diagnostics diagnostics;  ///< info and warnings; with leaveOut also errors; document order
 };
 
-/// Reads a scene of any dialect, repairing what real files get wrong (see docs/scene-language.md).
+/// Reads a scene of any dialect, repairing common faults of real files (docs/scene-language.md).
 /// `assets` serves includes and entities only. Throws Error with all diagnostics found (xml.*
 /// errors first, then in document order) when the document is not readable XML (xml.*), is not a
 /// scene (scene.*) or is over a limit (limit.*), or an included file is missing (asset.*).

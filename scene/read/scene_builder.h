@@ -29,7 +29,7 @@ struct ReadSession {
 };
 
 /// Reads one document into a Scene: dialect, then elements by their tables. Faults go to the
-/// session's findings; what is damaged keeps its defaults.
+/// session's findings; damaged elements and attributes keep their defaults.
 class SceneBuilder {
   public:
     SceneBuilder(const Document& document, ReadSession& session);
@@ -120,7 +120,7 @@ class SceneBuilder {
     void misplacedChildren(pugi::xml_node element, const ElementSpec& spec,
                            std::vector<const ElementSpec*>& open, Each each);
     void unknownChild(pugi::xml_node child, const ElementSpec& parent);
-    /// Warns where `canonical` is in `seen` already; for what may stand once in its parent.
+    /// Warns where `canonical` is in `seen` already; for elements allowed once in their parent.
     void onlyOnce(std::string_view canonical, pugi::xml_node child,
                   std::set<std::string_view>& seen);
     Location at(pugi::xml_node element) const { return document_.at(element); }
@@ -141,7 +141,7 @@ class SceneBuilder {
 /// root's attribute "dialect" wins and is read elsewhere.
 Dialect detectDialect(const Document& document, Findings& findings);
 
-/// Reads `xml` and what it includes as one scene, without the defaults of a whole scene.
+/// Reads `xml` and its includes as one scene, without the defaults of a whole scene.
 Scene readDocument(std::string_view xml, const std::string& name, ReadSession& session);
 
 template <class Each>
@@ -161,8 +161,8 @@ void SceneBuilder::children(pugi::xml_node element, const ElementSpec& spec, Eac
     }
 }
 
-/// Reads what stands in an element that was not closed: elements below `element` that may stand in
-/// `spec` and in none of those that are `open` between.
+/// Reads the content of an element that was not closed: elements below `element` that `spec` allows
+/// and none of the elements `open` between allows.
 template <class Each>
 void SceneBuilder::misplacedChildren(pugi::xml_node element, const ElementSpec& spec,
                                      std::vector<const ElementSpec*>& open, Each each) {

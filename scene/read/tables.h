@@ -53,7 +53,7 @@ std::string_view canonicalWord(const AttributeSpec& row, std::string_view word);
 /// True for the names of a scene document's root element.
 bool isSceneRoot(std::string_view name);
 
-/// True if `word` is among the blank-separated `words`, whatever its case.
+/// True if `word` is among the blank-separated `words`, ignoring case.
 bool isAmong(std::string_view words, std::string_view word);
 
 }  // namespace farol::scene

@@ -33,7 +33,7 @@ class Values {
     glm::dvec3 vector(std::string_view x, std::string_view y, std::string_view z,
                       const glm::dvec3& otherwise) const;
     Location where(std::string_view name) const;
-    bool damaged = false;  ///< an attribute was refused: what follows from it is not worth telling
+    bool damaged = false;  ///< an attribute was refused: its consequences are not reported
 
     const Entry* find(std::string_view name) const;
     std::vector<Entry> entries;

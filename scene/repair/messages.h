@@ -4,7 +4,7 @@
 
 namespace farol::scene {
 
-/// Messages of scene/repair, by code. Warnings say what the repair does instead.
+/// Messages of scene/repair, by code. Warnings name the repair that was made.
 inline constexpr MessageRow kRepairMessages[] = {
     {"limit.bytes",
      "the document has {bytes} bytes; at most {max} are read",

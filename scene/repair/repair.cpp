@@ -148,7 +148,7 @@ bool takeGeneratorWords(std::string_view comment,
 
 namespace {
 
-/// What a file that is no text is, by its first bytes; empty for any other.
+/// Names the type of a binary file by its first bytes; empty for any other file.
 std::string_view kindOfBinary(std::string_view bytes) {
     struct Kind {
         std::string_view start, name;

@@ -23,7 +23,7 @@ class LineIndex {
     std::vector<std::size_t> starts_;
 };
 
-/// Well-formed XML made of what a person wrote, and where each of its bytes came from.
+/// Well-formed XML repaired from a source, with the source offset of each byte.
 struct Repaired {
     std::string text;  ///< UTF-8, without comments, declarations and processing instructions
     std::vector<std::pair<std::size_t, std::size_t>> origins;  ///< offset in text, in the source
@@ -35,9 +35,9 @@ struct Repaired {
     std::size_t origin(std::size_t offset) const;
 };
 
-/// Makes `source` well-formed: quotes, blanks, stray text, comments, encoding; every repair is a
-/// warning xml.*. What cannot be repaired is an error xml.* and closed as well as it can be, so
-/// that reading can go on to find more. Iterative: no nesting overflows the stack.
+/// Makes `source` well-formed: quotes, blanks, stray text, comments, encoding. A repair is a
+/// warning xml.*; a fault without a repair is an error xml.*, and its element is closed all the
+/// same, so that reading finds later faults, too. Iterative: no nesting overflows the stack.
 /// Throws Error limit.bytes, limit.depth, limit.elements, xml.empty, xml.character.
 Repaired repair(std::string_view source, const LineIndex& lines, const ReadLimits& limits,
                 Findings& findings);

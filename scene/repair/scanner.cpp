@@ -56,7 +56,7 @@ Repaired RepairScanner::run() {
         at_ = mark;
         if (!ended()) markup();
     }
-    // One finding, for the innermost: what is round it is open for the same reason.
+    // One finding, for the innermost: its ancestors are open for the same reason.
     if (!open_.empty() && !truncated_)
         findings_.error(message<"xml.unclosed">("element"_arg = open_.back().name,
                                                 "fix"_arg = closing(open_.back().name)),
@@ -151,7 +151,7 @@ void RepairScanner::characterData() {
     at_ = std::min(end + 3, source_.size());
 }
 
-/// Skips a document type. What it names is never opened; definitions of entities are refused.
+/// Skips a document type. Never opens the DTD that it names; refuses definitions of entities.
 void RepairScanner::declaration() {
     const std::size_t begin = at_;
     int brackets = 0;

@@ -4,10 +4,10 @@
 
 namespace farol::generator {
 
-/// How fine a mesh is to be whose divisions a scene leaves open.
+/// Tessellation bounds of a mesh whose divisions a scene leaves open.
 struct Fineness {
     double error;     ///< most distance between mesh and surface, object space, > 0
-    double fullTurn;  ///< least divisions of a full turn, whatever the error: for shading, >= 8
+    double fullTurn;  ///< least divisions of a full turn at any error, for shading; >= 8
     /// Least divisions of a straight side that narrows (cone, frustum): texture coordinates and
     /// vertex lighting bend there although the surface does not. >= 1.
     double straightSide = 1;
@@ -18,7 +18,7 @@ struct Fineness {
     bool textured = false;
 };
 
-/// Most divisions that are chosen; finer wishes are capped.
+/// Upper bound of the chosen divisions.
 inline constexpr double kMaxDivisions = 1024;
 
 /// Divisions of a circle of that radius whose sagitta r(1 - cos(pi/n)) is at most `error`,

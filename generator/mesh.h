@@ -44,7 +44,7 @@ struct MeshArrays {
     bool operator==(const MeshArrays&) const = default;
 };
 
-/// Checks what must hold before an index is followed: counts within their bounds; normals, uvs and
+/// Checks the invariants that indexing relies on: counts within their bounds; normals, uvs and
 /// colours empty or as long as positions; three indices a triangle, each < positions.size(); parts
 /// that cover the triangles in their order, or none. Throws Error limit.triangles, mesh.count,
 /// mesh.truncated or mesh.index.

@@ -36,24 +36,24 @@ std::size_t countTriangles(const ShapeCall& call, const scene::Assets& assets);
 /// Fills in Model::source of every model of the scene (entity included), and Texture::path,
 /// Background::path and Skybox::path: 1. a file of that name in the bundle; 2. a generator
 /// comment; 3. the name itself ("cone_1_2_4_3.3d"); built-ins last. Says where each model came
-/// from (severity info) and checks shape arguments. Adds errors for what cannot be found; does
+/// from (severity info) and checks shape arguments. Adds an error for each missing file; does
 /// not throw.
 void resolve(scene::Scene& scene, const scene::Assets& assets, Diagnostics& diagnostics);
 
 /// True for a name with the ending of a mesh file, but for .patch, which takes a level.
 bool isMeshName(const std::string& fileName);
 
-/// The mesh of a resolved model. Throws as generate and io::decodeMesh do; what was repaired in
-/// a mesh file is added to `findings` where it is given.
+/// Returns the mesh of a resolved model. Throws as generate and io::decodeMesh do. Adds the repairs
+/// of a mesh file to `findings` unless it is null.
 Mesh load(const scene::Model& model, const scene::Assets& assets, Diagnostics* findings = nullptr);
 
 /// True when a model's shape leaves divisions open (left out, "auto", or all of them by
-/// lod="auto"): its mesh is made as fine as the picture needs. What is written is honoured to the
-/// letter.
+/// lod="auto"): each image chooses them by the size of the model on screen. Written divisions are
+/// never changed.
 bool isAdaptive(const scene::Model& model);
 
-/// The exact surface of a model whose divisions are all open; nothing where some are written (the
-/// mesh is then what is meant) or the shape is none of Surface's.
+/// Returns the exact surface of a model whose divisions are all open. Nothing where some are
+/// written (the mesh itself is then intended) or no SurfaceKind describes the shape.
 std::optional<Surface> surfaceOf(const scene::Model& model);
 
 /// Divisions of a full turn of a shape that Surface knows, in its coarser direction; 0 for other
@@ -64,8 +64,8 @@ double fullTurnOf(const ShapeCall& call);
 /// inwards (a torus: round its ring); 1 for other shapes.
 glm::dvec3 balancedScale(const ShapeCall& call);
 
-/// The call of an open model with its divisions chosen: the coarsest of a small roundUpToStep that
-/// keep `fineness`; its file is where it was found. Throws as load does.
+/// Returns the call of an adaptive model with the coarsest divisions that keep `fineness`, rounded
+/// up by roundUpToStep; its file is the resolved path. Throws as load does.
 ShapeCall refine(const scene::Model& model, const scene::Assets& assets, const Fineness& fineness);
 
 /// A mesh made by `adapt`; equal divisions of one file are equal meshes.
@@ -74,8 +74,8 @@ struct AdaptedMesh {
     Mesh mesh;
 };
 
-/// The mesh of an open model that keeps `fineness` with divisions that differ from place to place
-/// (patches); nothing for shapes whose arguments say them (refine). Throws as load does.
+/// Returns the mesh of an adaptive model that keeps `fineness` by divisions of each edge (patches);
+/// nothing for shapes with one set of divisions (refine). Throws as load does.
 std::optional<AdaptedMesh> adapt(const scene::Model& model, const scene::Assets& assets,
                                  const Fineness& fineness);
 

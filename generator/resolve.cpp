@@ -84,8 +84,8 @@ class ModelFinder {
         return bytes && io::isPlyProfile(*bytes, path);
     }
 
-    /// The materials of an OBJ file; null where it names none. What cannot be read is a warning,
-    /// and those parts have the scene's own colours.
+    /// Returns the materials of an OBJ file; null where it names none. An unreadable library is a
+    /// warning; its parts keep the scene's colours.
     std::shared_ptr<const std::vector<scene::PartMaterial>> materialsOf(const std::string& path,
                                                                         const Location& where) {
         if (fileEnding(path) != "obj") return nullptr;
@@ -228,7 +228,7 @@ class ModelFinder {
         auto found = comments_.find(file);
         if (found == comments_.end()) found = comments_.find(base);
         if (found != comments_.end()) return &found->second;
-        if (!alike_) {  // as file names of some systems, whatever the case
+        if (!alike_) {  // case-insensitive, as file names of some systems
             alike_.emplace();
             for (const auto& [name, words] : comments_) alike_->emplace(lowerCase(name), &words);
         }

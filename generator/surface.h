@@ -8,8 +8,8 @@ namespace farol::generator {
 
 struct Surface;
 
-/// One kind of exact surface: what tessellation asks of it, and its part of the fragment shader.
-/// The shape that has it defines it; there is one object a kind.
+/// One kind of exact surface: its functions for tessellation and its part of the fragment shader.
+/// Defined in the shape's source file, one object a kind.
 struct SurfaceKind {
     /// Distance from `eye` to the curved part, in the surface's units. Null: not known.
     double (*distance)(const Surface& surface, const glm::dvec3& eye) = nullptr;

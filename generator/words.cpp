@@ -88,9 +88,9 @@ std::optional<ShapeCall> parseCountsFirst(const std::vector<std::string>& words,
     }
 }
 
-/// A file's name as its words are parted: without its ending and what systems add to a copy's
-/// ("box_2 (1).3d", "box_2 - Copia.3d", "box_2.3d.3d"), with "_" for the marks in "sphere-1-16-8"
-/// and "sphere(1,16,8)".
+/// Normalises a file's name for splitting into words: removes its ending and the suffixes of copies
+/// ("box_2 (1).3d", "box_2 - Copia.3d", "box_2.3d.3d"), and puts "_" for the marks in
+/// "sphere-1-16-8" and "sphere(1,16,8)".
 std::string plainName(std::string_view base) {
     std::string name(withoutEnding(std::string(base)));
     if (fileEnding(name) == "3d") name.resize(name.size() - 3);

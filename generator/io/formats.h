@@ -8,7 +8,7 @@
 #include "generator/mesh.h"
 
 /// One reader and writer a format; sniff.cpp chooses among them. Readers throw Error mesh.*
-/// with the line where they can; what they return is checked again as a whole (mesh.h), and
+/// with the line where they can; their meshes are checked again as a whole (mesh.h), and
 /// normals and winding are left to repair.h.
 namespace farol::generator::io {
 
@@ -53,7 +53,7 @@ bool looksLikeLists(std::string_view bytes);
 /// Elements with numbers: <vertex x="0" y="0" z="0"/>, <triangle>...</triangle>.
 RawMesh decodeElements(std::string_view bytes, const std::string& fileName);
 bool looksLikeElements(std::string_view bytes);
-/// Numbers behind words that say what they are: "v: 0 0 0", "VERTICES:" before rows, JSON.
+/// Numbers behind labels: "v: 0 0 0", "VERTICES:" before rows, JSON.
 RawMesh decodeLabelled(std::string_view bytes, const std::string& fileName);
 bool looksLabelled(std::string_view bytes);
 /// Nothing but little-endian floats, perhaps after their count: places, or places and normals and

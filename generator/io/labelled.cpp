@@ -17,7 +17,7 @@ bool isBetween(char c) {
     return isSeparator(c) || c == ':' || c == '=' || c == '"' || c == '\'' || c == '<' || c == '>';
 }
 
-/// Walks the words and numbers of a text; what is neither is an error.
+/// Reads a text of words and numbers; any other token is an error.
 class LabelReader {
   public:
     LabelReader(std::string_view text, const std::string& file)
@@ -96,7 +96,7 @@ class LabelReader {
 
     static std::string printable(std::string_view token);
 
-    /// Words end before digits' neighbours only at what stands between.
+    /// Returns the end of the token at `at`. A word ends at a separator only, not at a digit.
     static std::size_t endOf(std::string_view line, std::size_t at) {
         if (!isLetterOf(line[at])) {
             std::size_t end = tokenEnd(line, at);

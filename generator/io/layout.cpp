@@ -157,7 +157,7 @@ bool isUnit(const glm::vec3& normal) {
     return std::abs(squared - 1.0) < 0.02;
 }
 
-/// Fills the mesh's lists; false where they cannot be what the layout says.
+/// Fills the mesh's lists; nothing where the numbers do not fit the layout.
 class LayoutReader {
   public:
     LayoutReader(const Cells& cells, const std::string& file) : cells_(cells), file_(file) {}

@@ -6,9 +6,9 @@
 #include "generator/io/raw_mesh.h"
 #include "generator/io/rows.h"
 
-/// Readings of numbers that no form of the table has: counts and lists in other orders and units.
-/// Each is tried by its exact length first, then by what its lists must be: indices whole and in
-/// range, normals of unit length. They are asked only where the form that a file looks like fails.
+/// Reads numbers in layouts outside the table of formats: counts and lists in other orders and
+/// units. Tries a layout by its exact length first, then checks its lists: indices whole and in
+/// range, normals of unit length. Used only where the format that a file looks like fails.
 namespace farol::generator::io {
 
 /// Rows of text by a layout of lists, or triangles of 15 or 18 numbers a row; nothing where none

@@ -22,10 +22,10 @@ std::optional<Format> formatOf(const std::string& fileName);
 /// the result is the same mesh. Precondition: the mesh has a triangle.
 std::string encodeMesh(const Mesh& mesh, Format format);
 
-/// Reads a mesh of any known form (also STL and OFF, which are not written); the content decides,
-/// the name only where the content cannot
-/// (.tri). Missing normals are computed; what is repaired is a warning in `findings`. Throws Error
-/// mesh.* with file and line, limit.triangles over kMaxTriangles.
+/// Reads a mesh of any known format (also STL and OFF, which are not written). Detects the format
+/// by the content, by the name only where the content is ambiguous (.tri). Computes missing
+/// normals; adds a warning to `findings` for each kind of repair. Throws Error mesh.* with file and
+/// line, limit.triangles over kMaxTriangles.
 Mesh decodeMesh(std::string_view bytes, const std::string& fileName, Diagnostics& findings);
 
 /// The points of a profile: a PLY file's vertices, or rows of two or three numbers. Throws mesh.*.

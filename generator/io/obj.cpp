@@ -21,7 +21,7 @@ using Corner = std::array<std::int32_t, 3>;
 
 class Reader {
   public:
-    /// `base` is what indices count from: 1, or 0 in some home-made files.
+    /// `base`: the first index, 1, or 0 in some home-made files.
     Reader(const std::string& file, int base) : file_(file), base_(base) {}
 
     /// Reads the faces of a file whose vertices are known already: they stand after the faces.

@@ -13,7 +13,7 @@ std::string_view nextObjWord(std::string_view& line);
 /// those after them.
 void eachObjLine(std::string_view bytes, const std::function<void(std::string_view, int)>& read);
 
-/// Returns what a file's indices count from: 1, or 0 where a corner of a face begins with 0.
+/// Returns the base of a file's indices: 1, or 0 where a corner of a face begins with 0.
 int objIndexBase(std::string_view bytes);
 
 }  // namespace farol::generator::io

@@ -246,15 +246,15 @@ class FaceReader {
             }
     }
 
-    /// Throws what was wrong with the first face that was lost, where no face is left.
+    /// Throws the error of the first invalid face if no face is left.
     void finish() {
         if (mesh_.indices.empty() && problem_) throw Error(Diagnostics{*problem_});
         if (colors_.size() == mesh_.triangles() && !colors_.empty()) splitByColor(mesh_, colors_);
     }
 
   private:
-    /// Exporters of students' own write faces without the line that describes them: the usual one
-    /// is assumed where there is none at all.
+    /// Returns the properties of an element. Home-made exporters leave out those of faces: then
+    /// assumes a list "vertex_indices" and adds a warning.
     std::vector<PlyProperty> propertiesOf(const PlyElement& element) {
         std::vector<PlyProperty> properties = element.properties;
         if (element.count > 0 && properties.empty()) {

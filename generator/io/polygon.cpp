@@ -60,9 +60,9 @@ class Clipper {
     }
 
     void run() {
-        // Repeated corners and needles go first: beside them other ears look right that are not.
-        // A simple polygon then always has an ear of some area. What crosses or touches itself
-        // may not: flat ears are cut as well, and in the end whatever is left is fanned.
+        // Repeated corners and needles go first: beside them, false ears pass the test. A simple
+        // polygon then always has an ear of some area. A polygon that crosses or touches itself
+        // may have none: then flat ears are clipped as well, and the rest becomes a fan.
         for (const Ears ears : {Ears::needles, Ears::proper, Ears::any}) {
             ears_ = ears;
             for (std::size_t i = 0; i < flat_.size(); ++i) enqueue(i);

@@ -14,7 +14,7 @@ namespace farol::generator::io {
 /// A mesh as its reader found it, unchecked, with places and texture coordinates in double.
 struct RawMesh {
     std::vector<glm::dvec3> positions;
-    std::vector<glm::vec3> normals;  ///< empty: computed; what is no direction is replaced
+    std::vector<glm::vec3> normals;  ///< empty: computed; invalid ones are replaced
     std::vector<glm::dvec2> uvs;
     std::vector<glm::u8vec4> colors;
     std::vector<std::uint32_t> indices;

@@ -35,7 +35,7 @@ dvec3 faceNormal(const std::vector<glm::vec3>& p, const std::uint32_t* corner) {
     return glm::cross(dvec3(p[corner[1]]) - a, dvec3(p[corner[2]]) - a);
 }
 
-/// Replaces what is no direction and normalises the rest; returns how many were replaced.
+/// Replaces normals of zero or infinite length, normalises the rest; returns the number replaced.
 std::size_t replaceNormals(MeshArrays& mesh, const std::vector<std::uint32_t>& smooth) {
     // Files with six digits give lengths that are off by 1e-6: those stay as they are.
     constexpr double kTolerance = 1e-5;
@@ -124,8 +124,8 @@ void repair(MeshArrays& mesh, const std::vector<std::uint32_t>& smooth, const st
     if (signedVolume(mesh) < 0 && isClosed(mesh)) {
         for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
             std::swap(mesh.indices[i + 1], mesh.indices[i + 2]);
-        // Normals that agree with the faces are turned with them; those that already look
-        // outwards are what the file got right.
+        // Normals that agree with the inward faces are turned with them; normals that point
+        // outwards already are correct and stay.
         double outward = 0;
         for (std::size_t i = 0; given && i + 2 < mesh.indices.size(); i += 3)
             outward += glm::dot(faceNormal(mesh.positions, &mesh.indices[i]),

@@ -10,7 +10,7 @@
 #include "core/error.h"
 #include "generator/mesh.h"
 
-/// Text of numbers, read once into rows: what all home-made mesh formats have in common.
+/// Text of numbers, read once into rows: the common part of all home-made mesh formats.
 namespace farol::generator::io {
 
 struct Row {

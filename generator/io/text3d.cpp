@@ -73,7 +73,7 @@ bool couldBeTriangles(const NumberRows& rows, std::size_t begin, std::size_t end
     return true;
 }
 
-/// Rows of one width of a soup after the first, whatever that says, which make whole triangles.
+/// True if all rows after the first have one width of a soup and make whole triangles.
 bool isUniformSoup(const NumberRows& rows) {
     const std::uint32_t width = rows.rows[1].count;
     const std::size_t left = rows.rows.size() - 1;
@@ -83,7 +83,7 @@ bool isUniformSoup(const NumberRows& rows) {
     return width >= 9 || left % 3 == 0;
 }
 
-/// A soup behind a count that may be none of the `right` ones: then the vertices are what counts.
+/// Decodes a soup after a count. Ignores the count, with a warning if it is none of `right`.
 RawMesh countedLoosely(const NumberRows& rows, double headCount, const std::vector<double>& right) {
     RawMesh mesh = decodeSoup(rows, 1);
     if (std::find(right.begin(), right.end(), headCount) == right.end())

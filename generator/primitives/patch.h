@@ -11,11 +11,11 @@ namespace farol::generator::primitives {
 /// left out.
 Mesh patch(const io::PatchFile& file, std::size_t level);
 
-/// The mesh of patches that errs by at most fineness.error, to both sides: each class of edges has
-/// its level (PatchLevels, added to `divisions`), and vertices stand out of the surface by half of
-/// what their facets fall short of it. The error is measured at the middles of all edges of the
-/// mesh. Meshes of over half a million triangles keep their vertices in the surface, and have their
-/// levels by the bends of the surface alone. Throws Error limit.triangles.
+/// Returns a mesh of the patches within fineness.error of the surface, to both sides. Each class of
+/// edges has its level (PatchLevels, returned in `divisions`); vertices are offset outwards by half
+/// of their facets' sagitta. The error is measured at the middles of all edges of the mesh. In
+/// meshes of over half a million triangles the vertices stay in the surface, and its curvature
+/// alone sets the levels. Throws Error limit.triangles.
 Mesh adaptedPatch(const io::PatchFile& file, const Fineness& fineness,
                   std::vector<std::size_t>& divisions);
 

@@ -81,7 +81,7 @@ Channel::Result Channel::receive(std::string& message, Clock::time_point deadlin
         head != Result::done)
         return head;
     if (size > maxBytes) return Result::oversize;
-    // Grows with what arrives: a length alone takes no memory.
+    // Allocates as bytes arrive: an announced length alone takes no memory.
     constexpr std::size_t kStep = std::size_t{16} << 20U;
     message.clear();
     while (message.size() < size) {

@@ -36,7 +36,7 @@ class Channel {
     Result receive(std::string& message, Clock::time_point deadline,
                    std::uint64_t maxBytes = kMaxBytes, const Watch& watch = nullptr);
 
-    /// More than a body or a picture at their largest, with what goes with them.
+    /// More than the largest body or image with its metadata.
     static constexpr std::uint64_t kMaxBytes = std::uint64_t{2} << 30U;
 
   private:

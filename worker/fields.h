@@ -5,7 +5,7 @@
 #include <type_traits>
 #include <utility>
 
-/// The members of plain structures, found by the compiler, so that what travels lists no field.
+/// Enumerates the members of plain structures at compile time; structures need no field lists.
 namespace farol::worker {
 
 /// Most members of one structure.
@@ -17,7 +17,7 @@ inline constexpr bool kIsOptionalField = false;
 template <typename T>
 inline constexpr bool kIsOptionalField<std::optional<T>> = true;
 
-/// Converts to whatever a member is. std::optional converts it by its own constructor.
+/// Converts to any member's type, except std::optional, whose own constructor converts it.
 struct AnyField {
     template <typename T>
     requires(!kIsOptionalField<T>) operator T() const noexcept;  // never called

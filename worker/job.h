@@ -13,17 +13,17 @@
 #include "worker/task.h"
 #include "worker/wire.h"
 
-/// Jobs and their answers without their types: what queue, pool and processes move.
+/// Type-erased jobs and replies, as queue, pool and processes pass them on.
 namespace farol::worker {
 
-/// A request as a worker gets it, with what is known of it beforehand.
+/// A request as a worker gets it, with the facts that the parent needs about it.
 struct PackedJob {
     std::string_view task;  ///< Task::kName
     std::string bytes;      ///< the name, then the request
     JobIdentity identity;
     bool isUpload = false, isShared = false;
     ReplyLimits limits;
-    /// Reads a Task::Reply and holds it against the request. Throws WireError.
+    /// Reads a Task::Reply and checks it against the request. Throws WireError.
     std::function<std::any(Unpacker&)> readReply;
 };
 

@@ -71,7 +71,7 @@ class WorkerPool final : public Backend {
     Done<std::any> ask(PackedJob job, const Turn& turn);
     Answer askSlot(Slot& slot, const PackedJob& job);
     void excuse(Slot& slot, const WorkerLost& lost, const JobIdentity& identity);
-    /// Throws what an answer that is not done means to the caller.
+    /// Throws the exception of an answer that is not `done`.
     void judge(Answer& answer) const;
     Done<std::any> askCounted(PackedJob job, const Turn& turn);
     void admit(const JobIdentity& identity);

@@ -65,8 +65,8 @@ class JobQueue {
         throw full();
     }
 
-    /// Blocks until a worker has run `work`. Rethrows what it throws; throws Busy. `key` names
-    /// the scene that a worker is warm for.
+    /// Blocks until a worker has run `work`. Propagates its exceptions; throws Busy. `key` names
+    /// the scene: prefers an idle worker whose last job had the same.
     template <typename Result>
     Done<Result> run(std::function<Result(Worker&)> work, std::string key = "", Turn turn = {}) {
         const auto ticket = std::make_shared<Ticket>();
@@ -207,7 +207,7 @@ class JobQueue {
         return seat;
     }
 
-    /// When what is here now will be done, as far as the last jobs tell.
+    /// Estimates when the queued and running jobs end, by the mean duration of recent jobs.
     int retryAfterS() const {
         const auto workers = static_cast<double>(std::max<std::size_t>(1, idle_.size()) +
                                                  static_cast<std::size_t>(busy_));

@@ -10,11 +10,11 @@
 #include "render/renderer.h"
 #include "worker/task.h"
 
-/// A worker may have been taken over by what it read: its replies are held against what was asked.
-/// All check functions throw WireError.
+/// Checks replies against their requests: input may have compromised the worker. All check
+/// functions throw WireError.
 namespace farol::worker {
 
-/// Numbers, diagnostics and titles: what every reply may hold besides its images and files.
+/// Bytes that every reply may have besides its images and files: numbers, diagnostics, titles.
 inline constexpr std::uint64_t kBaseBytes = std::uint64_t{4} << 20U;
 inline constexpr std::size_t kMaxDiagnostics = 2'200;  ///< scene/read/findings.cpp keeps 2,000
 /// Entries of the lists that diagnostics are: themselves and their messages' arguments.
@@ -23,13 +23,13 @@ inline constexpr std::size_t kMaxDiagnosticEntries = kMaxDiagnostics * (1 + kMax
 /// The bounds that every reply has.
 inline constexpr ReplyLimits kBaseLimits{kBaseBytes, kMaxDiagnosticEntries};
 
-/// Throws WireError, whose message ends with `what`, unless `holds`.
+/// Throws WireError unless `holds`; its message ends with the second argument.
 void require(bool holds, const char* what);
 void checkFinite(std::initializer_list<double> values);
 /// Times in ms.
 void checkTimes(std::initializer_list<double> times);
 void checkDiagnostics(const Diagnostics& diagnostics);
-/// A refusal blames the input: codes of the HTTP side are not a worker's to give.
+/// Checks a refusal: a worker may report faults of the input, but no codes of the HTTP side.
 void checkRefusal(const Diagnostics& diagnostics);
 void checkFaultMessage(const std::string& message);
 /// An object within the limits.

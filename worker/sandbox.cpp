@@ -111,9 +111,9 @@ void enterSandbox(const SandboxOptions& options, Layers& layers) {
 void closeSandbox(const SandboxOptions& options, Layers& layers) {
     signal(SIGXFSZ, SIG_IGN);
     if (!kSanitized && !limit(RLIMIT_FSIZE, 0)) layers.emplace_back("fileSize", missing());
-    // Of what the first rules left open for the program's start, Mesa's cache is needed, and
-    // libraries that Mesa loads when it first draws and those of the module: to read. One that
-    // could write to the cache could leave code for those who come after it.
+    // From here on only reading: scenes, the libraries that Mesa loads at its first draw call,
+    // those of the module, and Mesa's shader cache. A worker that could write to the cache could
+    // leave code for later workers.
     std::vector<std::string> readable = options.readable;
     for (const char* path : {"/usr/lib", "/lib", "/lib64", "/etc/ld.so.cache"})
         readable.emplace_back(path);

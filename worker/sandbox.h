@@ -14,8 +14,8 @@ struct SandboxOptions {
     std::size_t memoryBytes = 0;        ///< of private memory; 0: no cap
 };
 
-/// To be called before the first thread: threads inherit what is set here. Sets resource limits,
-/// no_new_privs, the death signal, and Landlock rules that leave the system's libraries, the
+/// To be called before the first thread: threads inherit these settings. Sets resource limits,
+/// no_new_privs, the death signal, and Landlock rules that allow the system's libraries, the
 /// readable folders and Mesa's shader cache. Adds a layer each to `layers`.
 void enterSandbox(const SandboxOptions& options, Layers& layers);
 

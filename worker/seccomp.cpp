@@ -15,8 +15,8 @@
 namespace farol::worker {
 namespace {
 
-// Calls that Mesa, LLVM, the C library and the readers of files make after the setup, whatever
-// their arguments. A call that is neither here nor among the rules below fails with EPERM.
+// Calls of Mesa, LLVM, the C library and the file readers after the setup, allowed with any
+// arguments. A call that is neither here nor among the rules below fails with EPERM.
 constexpr int kAllowed[] = {
     // memory and threads; LLVM generates code at run time, so executable pages stay possible
     SCMP_SYS(brk), SCMP_SYS(munmap), SCMP_SYS(mremap), SCMP_SYS(mprotect), SCMP_SYS(futex),

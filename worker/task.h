@@ -32,22 +32,22 @@ struct TaskTraits {
     static constexpr bool kIsExempt = false;
 };
 
-/// A kind of job. Its files in worker/tasks/ and a row of worker/tasks/table.cpp are all that it
-/// takes: the members of Request and Reply travel by themselves (worker/fields.h), and the parent
-/// calls it by Backend::run<T>.
+/// A kind of job: its files in worker/tasks/ and a row of worker/tasks/table.cpp. The members of
+/// Request and Reply are serialised without further code (worker/fields.h); the parent calls
+/// it by Backend::run<T>.
 template <typename T>
 concept Task = std::derived_from<T, TaskTraits> &&
     requires(const typename T::Request& request, typename T::Reply& reply,
              const typename T::Bounds& bounds, WorkerState& state) {
     { T::kName } -> std::convertible_to<std::string_view>;
-    /// In a worker. Throws what it throws: an Error blames the request.
+    /// Runs in a worker. Exceptions reach the caller; an Error is the request's fault.
     { T::run(request, state) } -> std::same_as<typename T::Reply>;
     { T::factsOf(request) } -> std::same_as<JobFacts>;
     /// Upper bounds of the reply to one request; derived from ReplyLimits.
     { T::boundsOf(request) } -> std::same_as<typename T::Bounds>;
     requires std::derived_from<typename T::Bounds, ReplyLimits>;
-    /// In the parent. Throws WireError where the reply is none to the request, and
-    /// replaces what is not a worker's to choose.
+    /// Runs in the parent. Throws WireError where the reply does not fit the request;
+    /// overwrites members that a worker must not choose.
     T::accept(reply, bounds);
 };
 

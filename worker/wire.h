@@ -106,7 +106,7 @@ class Packer {
     std::string bytes_;
 };
 
-/// Reads what a Packer wrote, and trusts none of it. Throws WireError.
+/// Reads the output of a Packer, and validates all of it. Throws WireError.
 class Unpacker {
   public:
     /// `maxEntries`: of all lists and maps together.

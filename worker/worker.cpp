@@ -36,7 +36,7 @@ int runWorker(const SandboxOptions& options, double maxCost) {
         std::string().swap(message);
         open = channel.send(answer, kNever) == Channel::Result::done;
     }
-    // Nothing to tidy up that the kernel does not; Mesa's own end would want what is closed now.
+    // The kernel releases all resources; Mesa's exit handlers need calls that are refused now.
     _exit(0);
 }
 

@@ -59,7 +59,7 @@ void WorkerOutput::run() {
     };
     for (;;) {
         beginSecond();
-        if (bytesRead >= kBytesASecond) {  // the pipe fills, and drops what workers print
+        if (bytesRead >= kBytesASecond) {  // the full pipe then drops the workers' output
             std::this_thread::sleep_until(second + std::chrono::seconds(1));
             continue;
         }

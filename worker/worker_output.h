@@ -14,7 +14,7 @@ class WorkerOutput {
     using Sink = std::function<void(const std::string& line)>;
     /// A separate thread calls `sink`. Throws std::runtime_error.
     explicit WorkerOutput(Sink sink);
-    /// Reads what is there and ends.
+    /// Forwards the pending output and ends.
     ~WorkerOutput();
     WorkerOutput(const WorkerOutput&) = delete;
     WorkerOutput& operator=(const WorkerOutput&) = delete;

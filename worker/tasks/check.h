@@ -23,8 +23,8 @@ struct CheckTask : TaskTraits {
     static void accept(Reply&, const Bounds&) {}
 };
 
-/// Draws small scenes that need the commonest shaders, so that they are compiled, and checks one.
-/// Throws std::runtime_error where it is wrong, and what Renderer::render throws.
+/// Renders small scenes to compile the commonest shaders, and checks one of the images. Throws
+/// std::runtime_error if it is wrong; propagates exceptions of Renderer::render.
 void warmUp(render::Renderer& renderer);
 
 }  // namespace farol::worker

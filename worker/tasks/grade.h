@@ -29,7 +29,7 @@ struct GradeTask : TaskTraits {
     static void accept(Reply& reply, const Bounds& bounds);
 };
 
-/// Draws what a rubric's views show of a reference.
+/// Renders a reference from a rubric's views.
 struct ReferenceTask : TaskTraits {
     static constexpr const char* kName = "reference";
     struct Request {

@@ -4,7 +4,7 @@
 
 namespace farol::worker {
 
-/// Reads a scene and tells what is in it, without GL.
+/// Reads a scene and reports its content, without GL.
 struct InspectTask : TaskTraits {
     static constexpr const char* kName = "inspect";
     struct Request {

@@ -12,7 +12,7 @@ namespace farol::worker {
 /// A kind of job as a worker finds it.
 struct TaskEntry {
     std::string_view name;
-    /// Reads the request, runs it and packs the answer. Throws WireError and what the task throws.
+    /// Reads the request, runs it and packs the reply. Throws WireError and the task's exceptions.
     std::string (*run)(Unpacker& request, WorkerState& state);
 };
 

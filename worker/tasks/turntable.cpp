@@ -11,7 +11,7 @@
 namespace farol::worker {
 namespace {
 
-/// Later frames are seen by the first one's camera, turned; what framed the scene stays.
+/// Sets the camera of a later frame: the first frame's, turned by `angle` rad about its target.
 void turnEye(render::PictureOptions& options, const scene::Camera& first, double angle) {
     options.azimuthDeg.reset();
     options.elevationDeg.reset();

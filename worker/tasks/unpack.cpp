@@ -24,7 +24,7 @@ UnpackTask::Bounds UnpackTask::boundsOf(const Request& request) {
 void UnpackTask::accept(Reply& bundle, const Bounds& bounds) {
     require(bundle.files.size() <= scene::Assets::kMaxListed && bundle.bytes() <= bounds.fileBytes,
             "the files of an archive");
-    // A worker that was taken over must not choose what is written where.
+    // A compromised worker must not choose the paths that are written.
     for (const auto& [path, content] : bundle.files)
         require(scene::isSafePath(path), "an unsafe path");
     require(bundle.files.count(bundle.main) == 1, "an archive without its scene");

@@ -58,7 +58,7 @@ render::Job Catalogue::jobOf(ServedScene& scene) const {
     job.name = scene.fileName();
     job.xml = std::move(*xml);
     job.assets = folder_.assets(scene);
-    scene.document = contentDigest(job.xml);  // of what was read, were it changed just now
+    scene.document = contentDigest(job.xml);  // of the bytes read: the file may have changed
     job.identity = entityTag({scene.document, scene.version});
     return job;
 }

@@ -15,8 +15,8 @@
 
 namespace farol::server {
 
-/// All scenes that are served, those of the folder and those of the store, with what is known of
-/// them. Threads may share it. Calls throw as SceneFolder and SceneStore do.
+/// All scenes that are served, of the folder and of the store, with cached facts about
+/// them. Thread-safe. Calls throw as SceneFolder and SceneStore do.
 class Catalogue {
   public:
     /// Facts about a scene that need no render, or the reason why it cannot be read.
@@ -42,7 +42,7 @@ class Catalogue {
     std::vector<ServedScene> list() const;
     /// Throws Busy where no scene can be read; one that cannot is known by its errors.
     std::shared_ptr<const Known> known(const ServedScene& scene);
-    /// Keeps what was found out of a scene just stored.
+    /// Caches the facts about a scene just stored.
     std::shared_ptr<const Known> remember(const std::string& id, const std::string& version,
                                           render::SceneReport report);
     /// Throws Busy where the folder cannot be read now.

@@ -9,8 +9,8 @@
 
 namespace farol::server {
 
-/// Bytes of request bodies in memory while their requests are handled, by client. One client may
-/// have a share of them only, so that he cannot fill the memory with what waits for workers.
+/// Counts the bytes of request bodies in memory while their requests are handled, by client. Each
+/// client has a limit, so that no client fills the memory with requests that wait for workers.
 /// Bounded by the requests that are handled at once. Thread-safe.
 class ClientBytes {
   public:

@@ -91,8 +91,8 @@ std::optional<std::uint64_t> FolderWatch::revision() {
     const auto now = std::chrono::steady_clock::now();
     if (hasNotes() || now - renewed_.load() >= kMaxDelay) {
         const std::lock_guard lock(mutex_);
-        // Before the notes are gone: who sees none left must see another number. And after new
-        // folders are watched: changes in them before that were missed.
+        // Increment before takeNotes(): a thread that finds no notes must see the new number. And
+        // again after watching new folders: earlier changes in them were missed.
         ++revision_;
         if (takeNotes()) {
             watchAll();

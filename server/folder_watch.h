@@ -11,8 +11,8 @@ namespace farol::server {
 
 /// Tells whether anything below a folder may have changed, without looking at its files (inotify).
 /// The kernel notes a change before the call that makes it returns, so one made before revision()
-/// is called is seen. What leaves no note (another machine's writes to a shared disk, a mapped
-/// file, a hard link elsewhere) is covered by a new revision each second.
+/// is called is seen. Changes without a note (another machine's writes to a shared disk, a mapped
+/// file, a hard link elsewhere) are covered by a new revision each second.
 class FolderWatch {
   public:
     /// `root`: absolute and without links; empty: nothing is watched.

@@ -11,8 +11,8 @@ namespace farol::server {
 /// Milliseconds as the log writes them, rounded to a microsecond.
 double toMicroseconds(double milliseconds);
 
-/// Formats one line of JSON a request: time, id, method, path, status, bytes, ms and what the
-/// handler adds. Threads may share it; the sink gets one line at a time.
+/// Formats one line of JSON a request: time, id, method, path, status, bytes, ms and fields of the
+/// handler. Thread-safe; the sink gets one line at a time.
 class Logger {
   public:
     /// Gets each line, without its end; must not block. Null: nothing is logged.

@@ -40,7 +40,7 @@ struct LogWriter::Queue {
     const Options options;
     std::atomic<std::uint64_t> dropped{0};
     std::atomic<bool> isAbandoned{false};
-    std::mutex mutex;  ///< of what follows
+    std::mutex mutex;  ///< guards the members below
     std::condition_variable changed;
     std::string lines;
     std::uint64_t reported = 0;  ///< of `dropped`

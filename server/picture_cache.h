@@ -11,9 +11,9 @@
 
 namespace farol::server {
 
-/// Pictures that were sent, by entity tag, within a bound of bytes: the least recently used go
-/// first. A tag names scene, options and renderer, so what is here is never out of date. Threads
-/// may share it.
+/// Caches image responses by entity tag. Bounded in bytes: evicts the least recently used
+/// responses. Entries are never stale, since a tag is a digest of scene, options and renderer.
+/// Thread-safe.
 class PictureCache {
   public:
     struct Counts {
@@ -23,7 +23,7 @@ class PictureCache {
     /// 0 bytes: nothing is kept.
     explicit PictureCache(std::size_t bytes) : most_(bytes), kept_(bytes) {}
 
-    /// The response as it was put, but for its times: they tell of a cache, not of a drawing.
+    /// Returns the response as it was put, with "cache" as its Server-Timing.
     std::optional<http::Response> find(const std::string& tag);
     void put(const std::string& tag, const http::Response& response);
     Counts counts() const { return {hits_, misses_}; }

@@ -36,7 +36,7 @@ Router::Router(std::vector<Route> routes) : routes_(std::move(routes)) {
 
 http::Response Router::route(Context& context, const http::Request& request,
                              http::Body& body) const {
-    const std::string* known = nullptr;  // the first pattern that fits decides what a path is
+    const std::string* known = nullptr;  // the first matching pattern decides
     for (const Route& route : routes_) {
         if (known != nullptr && route.pattern != *known) break;
         auto parameter = match(route.pattern, request.path);

@@ -26,7 +26,7 @@ struct RouteTraits {
 
 /// One line of the table of routes.
 struct Route {
-    /// Throws what becomes a problem document: Error, Busy, ProblemException.
+    /// Throws Error, Busy or ProblemException, which become problem documents.
     using Handle = http::Response (*)(Context&, const Call&);
 
     std::string method;
@@ -40,18 +40,18 @@ class Router {
     explicit Router(std::vector<Route> routes);
 
     /// Runs the route's handler. Throws Error http.not-found or http.method (then `allowed` of the
-    /// path is not empty), and what the handler throws. OPTIONS is answered for every path.
+    /// path is not empty), and the handler's exceptions. OPTIONS is answered for every path.
     http::Response route(Context& context, const http::Request& request, http::Body& body) const;
 
     /// The route that answers the request, or null.
     const Route* find(const http::Request& request) const;
-    /// True if a problem of the path may become a picture, whatever the method.
+    /// True if a problem of the path may become an image, with any method.
     bool drawsProblem(const std::string& path) const;
 
     /// The methods that a path answers, HEAD and OPTIONS included: "GET, HEAD, OPTIONS".
     std::string allowed(const std::string& path) const;
 
-    /// The pattern that decides what a path is, "/v1/scenes/{id}"; empty where there is none.
+    /// Returns the first pattern that matches a path, "/v1/scenes/{id}"; empty where there is none.
     std::string_view patternOf(const std::string& path) const;
 
     const std::vector<Route>& routes() const { return routes_; }

@@ -30,14 +30,14 @@ struct ServedScene {
     std::string fileName() const { return path.substr(path.rfind('/') + 1); }
 };
 
-/// The scene that a stored one is.
+/// Returns an uploaded scene as a served one.
 inline ServedScene uploadOf(const store::Entry& entry) { return {entry.id, "", entry.id, entry}; }
 
-/// The folder that is served. Edits show at once: it is looked at anew on every call, but for
-/// find() of what was found before while the watch knows of no change. Another folder under the
-/// same path is noticed at the next call. Nothing outside it is ever found, whatever the id or the
-/// links inside say. Calls throw Busy busy.scenes while the folder cannot be read, and
-/// std::system_error where descriptors or memory run out.
+/// The folder that is served. Edits show at once: each call reads the folder anew, except that
+/// find() caches its results until the watch reports a change. Another folder under the same path
+/// is noticed at the next call. No id and no link leads to a file outside the folder. Calls throw
+/// Busy busy.scenes while the folder cannot be read, and std::system_error where descriptors or
+/// memory run out.
 class SceneFolder {
   public:
     /// An empty `root` serves no scenes.
@@ -89,7 +89,7 @@ class SceneFolder {
         std::chrono::steady_clock::time_point firstSeen;
         bool isSure;  ///< it was read so long after `firstSeen` that another edit has another stamp
     };
-    /// Of contents, by what tells that a file may have changed. Bounded.
+    /// Digests of file contents, by FolderAssets::version. Bounded.
     mutable std::map<std::string, Digest> digests_;
 };
 

@@ -27,7 +27,7 @@ struct ServeOptions {
     std::size_t cacheBytes = std::size_t{64} << 20U;  ///< of pictures kept in the parent; 0: none
     RateLimit rate;
     std::string corsOrigin;  ///< empty: no CORS headers
-    std::string basePath;    ///< "/farol": what stands before all paths; empty: nothing
+    std::string basePath;    ///< prefix of all paths, "/farol"; empty: none
     /// Names, comma-separated, that clients may use for the service; "*": any; empty: loopback
     /// names and listen.host where that is a loopback address, else any.
     std::string allowedHosts;

@@ -12,7 +12,7 @@ namespace farol::server {
 
 namespace {
 
-// A scene's source is XML from strangers: a browser that opens it must not run what is in it.
+// A scene's source is XML from strangers: a browser that opens it must not run its scripts.
 constexpr const char* kDataPolicy = "default-src 'none'; frame-ancestors 'none'; sandbox";
 
 constexpr std::chrono::milliseconds kRefusalHold{200};

@@ -16,7 +16,7 @@
 namespace farol::server {
 
 /// The REST interface (docs/reference/http.md) without sockets and without GL: admits requests,
-/// hands them to their routes and turns what goes wrong into problem documents.
+/// hands them to their routes and turns errors into problem documents.
 class Service final : public http::Handler {
   public:
     Service(ServiceOptions options, worker::Backend& backend, Logger& logger);

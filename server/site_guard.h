@@ -9,7 +9,7 @@
 
 namespace farol::server {
 
-/// Refuses what a page of another site makes a browser send: requests under a host name that is
+/// Refuses requests that a page of another site makes a browser send: under a host name that is
 /// not the service's (DNS rebinding), and requests that change something from another origin.
 /// Requests of programs, which send neither Origin nor Sec-Fetch-Site, pass.
 class SiteGuard {

@@ -58,8 +58,8 @@ void Arrival::readHead(std::string& in) {
     head_ = checkHead(std::string_view(in).substr(0, end + 4));
     in.erase(0, end + 4);
     headAt_ = since_ = Clock::now();
-    // Where the request is refused whatever its body, that says more than that the length is
-    // missing.
+    // If the request is refused with any body, that reason is more useful than the missing
+    // length.
     if (head_->refusal && head_->refusal->status == 411 && handler_->bodyLimit(head_->request) == 0)
         head_->takeAsEmpty();
     if (head_->refusal || !head_->mayHaveBody() || !head_->hasBody()) return;

@@ -25,9 +25,9 @@ class Arrival {
 
     explicit Arrival(const Handler& handler) : handler_(&handler) {}
 
-    /// Takes what belongs to the request off the front of `in`, and no more.
+    /// Removes the bytes of the request from the front of `in`, and no more.
     void feed(std::string& in);
-    /// The client has had its time: the request is refused with what is there of it.
+    /// Refuses the incomplete request, after a timeout or the end of the client's data.
     void giveUp(std::string& in);
     State state() const;
     /// Since when its head, or its body, is under way.

@@ -23,7 +23,7 @@ class BodyReader {
     /// `length` or nothing for chunks.
     BodyReader(std::optional<std::uint64_t> length, std::size_t maxBytes);
 
-    /// Takes what belongs to the body; returns how many of `bytes` that is.
+    /// Appends the part of `bytes` that belongs to the body; returns its length.
     std::size_t feed(std::string_view bytes);
     void giveUp();
     State state() const { return state_; }

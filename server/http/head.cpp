@@ -13,7 +13,7 @@ namespace {
 
 using std::string_view;
 
-// RFC 9110 5.6.2: what a method or a header's name may consist of.
+// Returns whether a text is a token (RFC 9110 section 5.6.2): a method or a header's name.
 bool isToken(string_view text) {
     return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) {
         return isAlphanumeric(c) || string_view("!#$%&'*+-.^_`|~").find(c) != string_view::npos;
@@ -26,7 +26,7 @@ bool isFieldValue(string_view text) {
     });
 }
 
-// Ours to interpret, or not to be believed: the library never sees these.
+// True for headers hidden from the library: the server interprets them, or they may be forged.
 bool isWithheld(const std::string& name) {
     static constexpr std::array<string_view, 11> kNames = {
         "range",       "if-range",    "accept-encoding", "content-encoding",

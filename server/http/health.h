@@ -11,7 +11,7 @@ struct Health {
 };
 
 /// Asks GET /readyz of the service at `url` ("http://host:port"). Does not throw for a service
-/// that is not there or not ready; throws Error option.range for what is no http URL.
+/// that is not there or not ready; throws Error option.range if `url` is no http URL.
 Health askHealth(const std::string& url, std::chrono::milliseconds patience);
 
 }  // namespace farol::server::http

@@ -31,7 +31,7 @@ std::size_t Link::push(std::string_view more) {
     if (held_) return 0;
     std::size_t taken = 0;
     while (!broken_ && (isPending() || taken < more.size())) {
-        // The kernel only reads what a message points to.
+        // The const_cast is safe: sendmsg() only reads these buffers.
         std::array<iovec, 2> parts{
             iovec{out_.data() + sent_, out_.size() - sent_},
             iovec{const_cast<char*>(more.data()) + taken, more.size() - taken}};

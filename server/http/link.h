@@ -5,21 +5,21 @@
 
 namespace farol::server::http {
 
-/// A connected, non-blocking socket with what has arrived on it and what is still to be sent. No
-/// call ever waits. Does not own the socket. Used by one thread at a time.
+/// A connected, non-blocking socket with its receive and send buffers. No call ever blocks. Does
+/// not own the socket. Used by one thread at a time.
 class Link {
   public:
     explicit Link(int fd) : fd_(fd) {}
     int fd() const { return fd_; }
 
     enum class Got { bytes, nothing, closed };
-    /// Adds some of what is there now to in().
+    /// Appends some of the available bytes to in().
     Got receive();
     /// Bytes that have arrived and are not consumed yet.
     std::string& in() { return in_; }
 
-    /// To be sent after what was put before: large pieces at once as far as the client takes them,
-    /// the rest by flush().
+    /// Sends `bytes` after the pending ones: large pieces at once as far as the socket accepts
+    /// them, the rest by flush().
     void put(std::string_view bytes);
     void flush();
     /// Nothing is sent until release().
@@ -37,7 +37,7 @@ class Link {
     std::size_t held() const { return in_.size() + out_.size() - sent_; }
 
   private:
-    /// Sends what is pending and then `more`; the bytes of `more` that went.
+    /// Sends the pending bytes, then `more`; returns the number of bytes of `more` that were sent.
     std::size_t push(std::string_view more);
 
     int fd_;

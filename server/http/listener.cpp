@@ -187,7 +187,7 @@ void Listener::receive(Client& client) {
         if (got == Link::Got::nothing) break;
         if (got == Link::Got::closed) {
             if (client.arrival.state() != Arrival::State::body) return drop(client);
-            client.arrival.giveUp(client.link.in());  // it may still read what we say to that
+            client.arrival.giveUp(client.link.in());  // it may still read the response
             return activate(client);
         }
         client.arrival.feed(client.link.in());

@@ -30,7 +30,7 @@ struct ListenOptions {
     std::string host = "127.0.0.1";
     int port = 8080;                              ///< 0: any free port
     int threads = 32;                             ///< requests handled at once
-    int maxConnections = 1024;                    ///< beyond, who waits longest is displaced
+    int maxConnections = 1024;                    ///< over it, an idle one is closed
     int connectionsPerClient = 0;                 ///< at once; 0: maxConnections
     std::chrono::milliseconds keepAlive{15'000};  ///< for a connection without a request
     /// Memory for arriving requests and slowly read responses; beyond it, the slowest
@@ -124,7 +124,7 @@ class Listener {
     int port_ = 0;
     std::atomic<bool> closing_{false}, stopping_{false};
     std::atomic<std::size_t> buffered_{0};
-    mutable std::mutex mutex_;  ///< of what follows, and of Client's phase
+    mutable std::mutex mutex_;  ///< guards the members below, and Client's phase
     std::condition_variable ready_;
     std::map<int, std::unique_ptr<Client>> clients_;
     std::deque<Client*> queue_;

@@ -63,14 +63,14 @@ struct Response {
 class Handler {
   public:
     virtual ~Handler() = default;
-    /// How many bytes of body are waited for before the request is handled; 0 where it will be
-    /// refused whatever they are. Called by the one thread that moves all bytes: must not block.
+    /// Returns the most bytes of body to read before the request is handled; 0 if it will be
+    /// refused with any body. Called by the one thread that moves all bytes: must not block.
     virtual std::size_t bodyLimit(const Request& request) const = 0;
     virtual Response handle(const Request& request, Body& body) = 0;
     /// The response to a request that could not be read as HTTP.
     virtual Response refuse(const Request& request, int status, const Message& message) = 0;
-    /// Called after the answer was written. `sent` is false when the client had gone or did not
-    /// take it in time.
+    /// Called after the response was written. `sent` is false if the client had disconnected or
+    /// did not read it in time.
     virtual void finished(const Request& request, const Response& response, double milliseconds,
                           bool sent) = 0;
 };

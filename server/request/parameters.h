@@ -38,7 +38,7 @@ Parameters readParameters(const http::Fields& query, const ParameterRules& rules
 std::int64_t wholeNumber(const std::string& name, const std::string& value, std::int64_t min,
                          std::int64_t max);
 
-/// The own parameters of routes that draw: those that turnOf() reads, and what an error becomes.
+/// Parameters of all routes that render: those of turnOf(), and the form of an error response.
 inline const std::vector<std::string> kDrawnNames = {"session", "seq", "onerror"};
 
 /// Which frame of which client a picture is. Throws Error option.range for a session that is not

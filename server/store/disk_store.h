@@ -11,7 +11,7 @@
 
 namespace farol::server::store {
 
-/// Scenes in a folder, a file each (scene_file.h): `scenes/` holds what was acknowledged, `new/`
+/// Scenes in a folder, a file each (scene_file.h): `scenes/` holds acknowledged scenes, `new/`
 /// unfinished files, `aside/` files with a wrong digest or of other programs. One process at a
 /// time. Each file read is checked against its digest: damaged ones are never served. A file that
 /// cannot be read stays where it is: its scene is Busy store.failed until it can.

@@ -28,9 +28,9 @@ class Index {
     std::string ownerOf(const std::string& id) const;
     /// Returns the limits of one client: a quarter of the store's.
     StoreLimits share() const;
-    /// The ids to remove before a client's new scene is put: expired ones, his own oldest beyond
-    /// his share, then what nobody used for kProtected, then more of his own, oldest first. Nothing
-    /// where that does not make room: what others use stays.
+    /// Returns the ids to evict before a client's new scene is put: expired scenes, the client's
+    /// oldest over its share, then scenes unused for kProtected, then more of the client's, oldest
+    /// first. Nothing if that does not make room: scenes that others use stay.
     std::optional<std::vector<std::string>> roomFor(const Entry& entry, const std::string& client,
                                                     Time now) const;
     static constexpr std::chrono::seconds kProtected{3'600};

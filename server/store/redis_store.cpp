@@ -38,7 +38,7 @@ worker::Busy refused(const RedisRefusal& why) {
     return {message<"store.failed">(), kRetryAfterFullS};
 }
 
-/// The value behind "name:" in what INFO says.
+/// Returns the value of "name:" in a reply to INFO.
 std::string infoOf(const std::string& info, const std::string& name) {
     const std::size_t at = info.find("\n" + name + ":");
     if (at == std::string::npos) return "";
@@ -57,7 +57,7 @@ RedisStore::RedisStore(RedisAddress address, StoreLimits limits, Log log,
     inspectServer();
 }
 
-/// An operator should hear at the start what would surprise later.
+/// Warns the operator at the start of settings of Redis that may lose scenes.
 void RedisStore::inspectServer() {
     try {
         const std::string info = link_.ask({"INFO"}).text;

@@ -10,7 +10,7 @@
 
 namespace farol::server::store {
 
-/// Scenes in a Redis that many services share: what one of them has acknowledged, all of them have.
+/// Scenes in a Redis that many services share: a scene acknowledged by one is visible to all.
 /// Every change is one script: it is atomic, and Redis's clock applies to all replicas.
 /// Where Redis cannot be asked, put, remove and list throw Busy store.unreachable, and get gives
 /// the scenes in this service's memory.
@@ -19,7 +19,7 @@ class RedisStore final : public SceneStore {
     using Log = std::function<void(const std::string&)>;
 
     /// Does not throw where Redis is away: it may come later.
-    /// A use within `usePause` of the one that was written down last is not.
+    /// Records uses of a scene at most once in `usePause`.
     RedisStore(RedisAddress address, StoreLimits limits, Log log,
                std::chrono::microseconds usePause = std::chrono::minutes(1));
 
@@ -44,7 +44,7 @@ class RedisStore final : public SceneStore {
     const std::string usePause_;
     mutable RedisLink link_;
     mutable std::mutex mutex_;
-    /// The scenes asked for last, with what was known of them then.
+    /// The scenes requested last, with their entries of that time.
     LruCache<std::string, Stored> cache_{kCachedBytes};
 };
 

@@ -19,7 +19,7 @@ inline Time now() { return std::chrono::system_clock::now(); }
 /// Facts about a stored scene that need no decoding.
 struct Entry {
     std::string id;           ///< "~" and the digest of the bundle
-    bool listed = false;      ///< in the gallery; else only who knows the id finds it
+    bool listed = false;      ///< in the gallery; else found by its id only
     Time expires;             ///< Time::max(): never
     std::uint64_t bytes = 0;  ///< that it takes of the store
     bool operator==(const Entry&) const = default;
@@ -64,11 +64,11 @@ class SceneStore {
     virtual bool remove(const std::string& id) = 0;
     /// Those that are listed, by their ids.
     virtual std::vector<Entry> list() = 0;
-    /// Removes what has expired; how many.
+    /// Removes expired scenes; returns their number.
     virtual std::size_t expire() = 0;
     /// How much is kept.
     virtual std::uint64_t bytes() const = 0;
-    /// Whether the last call found what keeps the scenes: false while a shared store is away.
+    /// Returns whether the last call reached the storage: false while a shared store is away.
     virtual bool isReachable() const { return true; }
 };
 

@@ -8,8 +8,8 @@
 
 namespace farol::cli {
 
-/// A zip that holds a class, as Moodle sends it: read entry by entry and never unpacked here. What
-/// a student handed in is packed again, as it is, for the sandbox.
+/// A zip of a class's submissions, as Moodle exports it: read entry by entry, never decompressed
+/// here. packed() copies the compressed entries of a submission into a zip for the sandbox.
 class ClassArchive {
   public:
     /// A file in the zip.

@@ -50,7 +50,7 @@ void addManual(CLI::App& root, Action& action);
 /// Internal: started by `serve`; not in the help.
 void addWorker(CLI::App& root, Action& action);
 
-/// Returns what `work` returns; an exception becomes its exit code and an entry of the report.
+/// Returns the exit code of `work`; an exception becomes an exit code and an entry of the report.
 int runGuarded(const std::function<int()>& work, Report& report);
 
 /// Lets the option take finite numbers from min to max (CLI::Range lets NaN pass), and its help

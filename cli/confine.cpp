@@ -172,7 +172,7 @@ Received writeOutputs(int socket, const Confinement& confinement) {
                            pid_t parent, int socket) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (getppid() != parent) _exit(kInternal);  // it ended before that
-    // Mesa and others print to 1 and 2; whatever else this process inherited is the parent's.
+    // Mesa and others print to 1 and 2; all other inherited descriptors belong to the parent.
     if (socket != kSocket) dup2(socket, kSocket);
     closefrom(kSocket + 1);
     // Handlers run in the reverse order: Mesa's, which writes the rest of its shader cache, then

@@ -69,7 +69,7 @@ generator::Mesh convert(const std::string& bytes, const std::string& path, Repor
     return mesh;
 }
 
-/// Runs what reads the shape's words: they are the command line, so a fault is in its use.
+/// Runs a step that parses the shape's words. They are arguments: reports faults as UsageError.
 template <typename Step>
 auto asUsage(Step step) {
     try {
@@ -99,7 +99,7 @@ generator::ShapeCall parse(const std::vector<std::string>& words, Report& report
         report.add(findings);
         return call;
     } catch (const Error&) {
-        return generator::parseCall(words);  // as written, the words tell better what is wrong
+        return generator::parseCall(words);  // the words as written give a clearer error
     }
 }
 

@@ -13,7 +13,7 @@
 namespace farol::cli {
 namespace {
 
-/// Returns the text with what is syntax in roff escaped: backslashes, hyphens, dots and quotes that
+/// Returns the text with the syntax of roff escaped: backslashes, hyphens, dots and quotes that
 /// begin a line.
 std::string roff(const std::string& text) {
     std::string out;

@@ -8,8 +8,8 @@
 
 namespace farol::cli {
 
-/// Names that reports show instead of the students'. A key file holds who is who: a table with the
-/// columns Pseudonym, Submission, Full name and Identifier. A later run keeps what it holds.
+/// Replaces students' names in reports. A key file maps pseudonyms to students: a table with the
+/// columns Pseudonym, Submission, Full name and Identifier. A later run keeps its rows.
 class Pseudonyms {
   public:
     /// Reads the key file where there is one, adds the submissions that it lacks, and writes it.
@@ -23,8 +23,8 @@ class Pseudonyms {
     std::map<std::string, std::string> byId_;
 };
 
-/// Returns the text without what names the student: the submission's name, with and without its
-/// ending, the student's name, and the identifier where it stands in Moodle's name of the folder.
+/// Returns the text without the student: replaces the submission's name (with and without its
+/// ending) and the student's name, and removes the identifier from Moodle's name of the folder.
 std::string withoutName(std::string text, const Submission& submission,
                         const std::string& pseudonym);
 

@@ -16,7 +16,7 @@ std::string formatLine(const Diagnostic& diagnostic) {
         if (where.column > 0) line += ":" + std::to_string(where.column);
     }
     line += ": " + std::string(kSeverityWords[diagnostic.severity]) + ": " + diagnostic.message;
-    // The note of what is hidden has its number in its text.
+    // The note about hidden findings has their number in its text.
     if (diagnostic.count > 1 && diagnostic.code != "limit.diagnostics")
         line += " (" + std::to_string(diagnostic.count) + " times)";
     if (!diagnostic.code.empty()) line += " [" + diagnostic.code + "]";

@@ -17,14 +17,14 @@ class Report {
     /// Without it, diagnostics of severity info are not shown as lines; JSON holds all.
     void setVerbose(bool verbose) { verbose_ = verbose; }
 
-    /// Stands in where a diagnostic names no file.
+    /// Sets the file of diagnostics that name none.
     void setInput(const std::string& name) { input_ = name; }
     void add(const Diagnostics& diagnostics);
     /// Adds an error that is in no file: of the command line or of the machine.
     void fail(Diagnostic fault);
     void fail(Message message) { fail(diagnosticOf(Severity::error, std::move(message))); }
     void set(const std::string& key, nlohmann::json value) { body_[key] = std::move(value); }
-    /// Sets every entry of an object; `diagnostics` are those that were added, whatever it says.
+    /// Sets every entry of an object, except `diagnostics`: finish() writes the added ones.
     void merge(const nlohmann::json& object) { body_.update(object); }
     void finish(int status);
 

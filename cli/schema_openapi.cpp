@@ -40,7 +40,7 @@ std::string schemaOf(const render::OptionSpec& option) {
     return "";
 }
 
-/// The help as sentences, with what the schema cannot say of the values: units and forms.
+/// Returns the help as sentences, with units and forms of values, which the schema lacks.
 std::string descriptionOf(const render::OptionSpec& option) {
     using render::OptionType;
     std::string text = option.help;

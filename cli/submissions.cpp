@@ -51,7 +51,7 @@ fs::file_type typeOf(const fs::path& path) {
 
 bool isFolder(const fs::path& path) { return typeOf(path) == fs::file_type::directory; }
 
-/// "Name_12345_assignsubmission_file_" and what follows.
+/// Matches "Name_12345_assignsubmission_file_" and a rest: 1 prefix, 2 name, 3 number, 4 rest.
 const std::regex& moodleName() {
     static const std::regex kMoodle(
         "^((.{1,200})_([0-9]{1,18})_assignsubmission_[a-z]+(?:_|$))(.*)$");
@@ -143,8 +143,8 @@ std::vector<Submission> submissionsOf(const std::string& path) {
     return collector.take();
 }
 
-/// The files below a folder that scenes need, by relative path, but for the folders `apart` and
-/// what is hidden.
+/// Collects the files below a folder that scenes need, by relative path, without the folders
+/// `apart` and hidden files.
 std::shared_ptr<const scene::Assets> collect(const fs::path& root,
                                              const std::vector<fs::path>& apart) {
     const scene::FolderAssets folder(root.string());
@@ -227,7 +227,7 @@ std::vector<GradeTask> findTasks(const std::string& reference) {
 grade::Subject readSubject(const std::string& path, const grade::Wanted& wanted) {
     if (isFolder(path)) return grade::subjectOf(collect(path, {}), path, wanted);
     const std::string name = fs::path(path).filename().string();
-    // Of what is no scene the name alone says so.
+    // Files of other types are not read: grade::subjectOf() reports them by name.
     const bool isRead = ending(path) == "xml" || isArchive(path) || isPicture(path) ||
                         typeOf(path) != fs::file_type::regular;
     return grade::subjectOf(single(name, isRead ? readRegularFile(path, kMaxBytes) : ""), path,

@@ -23,23 +23,23 @@ struct Submission {
     std::vector<std::size_t> entries = {};                  ///< of the archive
 };
 
-/// One thing to be done by all: a reference scene or expected picture.
+/// One task of the class: a reference scene or expected image.
 struct GradeTask {
     std::string name;  ///< of the file or folder without its ending; empty where there is one only
     std::string path;
 };
 
-/// Every entry of the folder, or of a .zip of the class, by name: what cannot be graded is refused
-/// when it is read. Hidden entries are left out; files of Moodle's names "Name_id_assignsubmission_
-/// file_scene.xml" are one submission a student. Throws Error asset.missing where there is no such
-/// folder, grade.no-submissions where it holds none, and as ClassArchive does.
+/// Returns every entry of the folder, or of a .zip of the class, by name; an entry that cannot be
+/// graded is refused when it is read. Leaves out hidden entries; files with Moodle's names
+/// "Name_id_assignsubmission_file_scene.xml" are one submission a student. Throws Error
+/// asset.missing if there is no such folder, grade.no-submissions if it is empty, as ClassArchive.
 std::vector<Submission> findSubmissions(const std::string& folder);
 
 /// A file is the one task. A folder: each of its .xml files is a task (pictures beside them are
 /// textures); else each of its folders that holds .xml files; else each picture. Throws Error.
 std::vector<GradeTask> findTasks(const std::string& reference);
 
-/// What was handed in, as readSubject() does; of a .zip of the class packed again, for the sandbox.
+/// Reads a submission as readSubject() does; from a .zip of the class as a zip for the sandbox.
 grade::Subject readSubmission(const Submission& submission, const grade::Wanted& wanted);
 
 /// The scene or the picture at `path`, with all files beside or below it in memory. Archives are

@@ -33,8 +33,8 @@ inline constexpr std::int64_t kMaxPixels = 16'777'216;  ///< of one picture
 
 inline constexpr double kDefaultErrorPx = 0.25;
 
-/// The picture options of the command line and of the service; what is unset is the scene's own
-/// choice, else the default named in optionSpecs().
+/// The render options of the command line and of the service; unset ones take the scene's
+/// setting, else the default of optionSpecs().
 struct PictureOptions {
     std::optional<int> width, height;  ///< 1..4096 px, at most kMaxPixels
     CameraStart camera = CameraStart::scene;

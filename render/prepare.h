@@ -17,17 +17,17 @@ struct Prepared {
     bool animated = false;  ///< something depends on the time
 };
 
-/// Reads the document (or, by the ending of the name, a mesh file on its own) and resolves what it
-/// names. Throws Error with all findings when one is an error, or in strict a warning; with
+/// Reads the document (or, by the ending of the name, a mesh file on its own) and resolves its
+/// files. Throws Error with all findings when one is an error, or in strict a warning; with
 /// missing=placeholder only where the document itself cannot be read.
 Prepared prepare(const Job& job);
 
-/// Scenes that were read, by Job::identity and what else decides over reading, least recently used
-/// first out. Jobs without an identity are read anew.
+/// LRU cache of prepared scenes, by Job::identity and the options that affect reading. Jobs
+/// without an identity are not cached.
 class PreparedCache {
   public:
     explicit PreparedCache(std::size_t most) : kept_(most) {}
-    /// Throws as prepare does; what is refused is not kept.
+    /// Throws as prepare does; failures are not cached.
     std::shared_ptr<const Prepared> get(const Job& job);
 
   private:

@@ -106,11 +106,11 @@ class Renderer {
     std::unique_ptr<State> state_;
 };
 
-/// Reads and resolves without GL; throws Error as Renderer::render does for what it can tell.
+/// Reads and resolves without GL. Throws the errors of Renderer::render that need no GL.
 SceneReport inspect(const Job& job);
 
-/// "farol 0.2.0 build 0123456789abcdef": our version and the build of all that draws (build_id.h),
-/// for /version and ETags.
+/// "farol 0.2.0 build 0123456789abcdef": the version, and the build id of program and libraries
+/// (build_id.h), for /version and ETags.
 std::string version();
 
 }  // namespace farol::render

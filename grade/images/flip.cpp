@@ -170,8 +170,8 @@ std::vector<float> derivative(bool second, double sigma, int radius) {
     return scaled;
 }
 
-/// The length of what the filter finds across and down; `smoothed` is the luminance, smoothed
-/// across.
+/// Returns the length of the vector of the filter's responses along x and y. `smoothed` is the
+/// luminance, smoothed along x.
 Plane magnitude(const Plane& luminance, const Rows& smoothed, const std::vector<float>& found,
                 const std::vector<float>& smooth) {
     Plane out = filter(luminance, found, smooth);
@@ -283,7 +283,7 @@ Plane flip(const FlipPicture& reference, const image::Image& test, const Rectang
     Plane out = emptyLike(like);
     if (changed.width <= 0 || changed.height <= 0) return out;
     const int reach = reachOf(kPixelsPerDegree);
-    // A pixel is met by what lies within the reach; so much more has to be there for its filters.
+    // The filters spread a change by `reach`, and need another `reach` of pixels as input there.
     const Rectangle read = grown(changed, 2 * reach, like.width, like.height);
     const FlipPicture part{FloatImage(crop(test, read))};
     flipInto(out, reference, part, read, grown(changed, reach, like.width, like.height));

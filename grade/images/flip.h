@@ -7,8 +7,8 @@
 
 /// FLIP: the difference that a person sees who switches between two pictures (Andersson,
 /// Nilsson, Akenine-Moeller, Oskarsson, Astrom, Fairchild: "FLIP: A Difference Evaluator for
-/// Alternating Images", HPG 2020). Colours are filtered by what the eye resolves, compared by HyAB
-/// in Hunt-adjusted L*a*b*, and amplified where edges or points differ.
+/// Alternating Images", HPG 2020). Colours are filtered by the eye's contrast sensitivity, compared
+/// by HyAB in Hunt-adjusted L*a*b*, and amplified where edges or points differ.
 namespace farol::grade {
 
 /// Of a 0.7 m wide screen with 3840 pixels seen from 0.7 m, as in the paper.
@@ -28,8 +28,8 @@ struct FlipPicture {
 Plane flip(const FlipPicture& reference, const FlipPicture& test);
 Plane flip(const FloatImage& reference, const FloatImage& test);
 
-/// The same, of a picture that equals the reference's but for `changed` (grade/images/measures.h):
-/// only what lies around that is computed. At kPixelsPerDegree.
+/// The same for an image that equals the reference outside of `changed` (differing() of
+/// measures.h): computes the pixels around it only. At kPixelsPerDegree.
 Plane flip(const FlipPicture& reference, const image::Image& test, const Rectangle& changed);
 
 }  // namespace farol::grade

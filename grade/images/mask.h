@@ -15,8 +15,8 @@ struct Rectangle {
 /// Leaves the pixels within `hidden` out. The rectangles may reach beyond the picture.
 void hide(Mask& mask, int width, int height, const std::vector<Rectangle>& hidden);
 
-/// Leaves out what looks like a coordinate axis in either picture (one channel above 60 of 255,
-/// the others below 40) and the pixels around it. Precondition: one size.
+/// Leaves out pixels that look like a coordinate axis in either image (one channel above 60 of
+/// 255, the others below 40) and the pixels around them. Precondition: one size.
 void hideAxes(Mask& mask, const image::Image& first, const image::Image& second);
 
 }  // namespace farol::grade

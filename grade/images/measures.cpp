@@ -80,7 +80,7 @@ class Extremes {
     std::vector<std::uint8_t> padded_, low_, high_;
 };
 
-/// By byte, how far `levels` is outside low..high; the larger of that and what `worst` holds.
+/// Raises each byte of `worst` to the distance of `levels` from low..high if that is larger.
 void raise(std::uint8_t* worst, const std::uint8_t* levels, const Extremes& around,
            std::size_t count) {
     const std::uint8_t *low = around.low(), *high = around.high();
@@ -132,7 +132,7 @@ Plane beyondAPixel(const image::Image& first, const image::Image& second, int fu
     };
     std::vector<std::uint8_t> worst(bytes);
     for (std::size_t y = 0; y < height; ++y) {
-        // Within what the other shows are all levels of a row that is the same in both.
+        // A row that is the same in both is within the other's range.
         if (equal(y)) continue;
         aroundA.moveTo(y);
         aroundB.moveTo(y);

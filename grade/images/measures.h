@@ -10,10 +10,10 @@
 /// Measures of two images of one size for a grade. All shares are 0 (alike) to 1.
 namespace farol::grade {
 
-/// By pixel, how far each picture is beyond what the other shows within one pixel: by channel,
-/// outside the least and the largest level of the 3x3 pixels around, the larger of both
-/// directions, as a share of `full` levels (capped at 1). An edge that moved by a pixel, or that
-/// was smoothed, costs nothing. Colours as shown on black.
+/// Returns, by pixel, the difference that a shift by one pixel does not explain: by channel, the
+/// distance from the least to largest level of the other image's 3x3 pixels around, the larger of
+/// both directions, as a share of `full` levels (at most 1). An edge that moved by a pixel, or that
+/// was smoothed, costs nothing. Colours as composited over black.
 Plane beyondAPixel(const image::Image& first, const image::Image& second, int full);
 
 /// The least rectangle that holds every pixel which is not the same in both; empty where none is.

@@ -19,8 +19,8 @@ struct Vector {
 /// Columns that are summed at once: as many as stay in registers.
 constexpr std::size_t kLanes = 32;
 
-/// out[x] = sum over t of weights[t] * rows[t][x], in this order whatever the vectors' size: the
-/// sums are the same on every machine. `count` is a multiple of kLanes.
+/// out[x] = sum over t of weights[t] * rows[t][x], in this order for any vector size: the sums are
+/// the same on every machine. `count` is a multiple of kLanes.
 template <std::size_t kBytes>
 [[gnu::always_inline]] inline void weighBy(const float* const* rows, const float* weights,
                                            std::size_t taps, std::size_t count, float* out) {
@@ -87,7 +87,7 @@ Summary summarize(const Plane& plane, const Mask& mask) {
         sum += static_cast<double>(plane.values[i]);
     }
     if (counted.empty()) return {};
-    auto begin = counted.begin();  // of what is not below the rank before
+    auto begin = counted.begin();  // values before it are below the previous rank
     const auto rank = [&](double share) {
         const double wanted = std::ceil(share * static_cast<double>(counted.size()));
         const auto place = counted.begin() + static_cast<std::ptrdiff_t>(std::max(1.0, wanted)) - 1;

@@ -18,8 +18,8 @@ struct Plane {
     }
 };
 
-/// A colour picture in floats: display values (sRGB-encoded) 0..1, three planes of one size. Made
-/// of an 8-bit picture, a transparent pixel is what it shows on black.
+/// A colour image in floats: display values (sRGB-encoded) 0..1, three planes of one size. From an
+/// 8-bit image, transparent pixels are composited over black.
 struct FloatImage {
     FloatImage(int width, int height)
         : red{width, height, {}}, green{width, height, {}}, blue{width, height, {}} {

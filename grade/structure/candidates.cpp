@@ -161,7 +161,7 @@ bool CandidateFinder::reachesBy(const Pair& pair, const std::vector<Edit>& edits
     return reaches(pair, world);
 }
 
-/// Where the item's own node has to be: turned about what nobody sees to how it stands.
+/// Returns the target matrices of the item's node, with its orientation where symmetry allows it.
 std::vector<glm::dmat4> CandidateFinder::goalOf(const Pair& pair, const Matrices& world) const {
     std::vector<glm::dmat4> out;
     const glm::dmat4 theirsFromMine = glm::inverse(pair.mineFromTheirs);
@@ -314,7 +314,7 @@ void CandidateFinder::addParents(const Pair& pair, std::vector<Candidate>& out) 
     const std::vector<int> path = mine_.pathTo(item.node);
     const std::size_t times = timesS_.size();
     for (std::size_t p = 1; p <= path.size(); ++p) {
-        // path[p] and what is below it hang elsewhere; p == size: the item alone.
+        // Moves path[p] and its descendants to another parent; p == size: the item alone.
         const bool isItem = p == path.size();
         const int moved = isItem ? -1 : path[p];
         Matrices below(times, glm::dmat4(1.0));
@@ -386,7 +386,7 @@ void CandidateFinder::addAlignment(const Pair& pair, std::vector<Candidate>& out
     std::vector<Edit> edits = alignChains(theirs_, pair.theirs, mine_, pair.mine);
     constexpr std::size_t kMaxEdits = 8;
     if (edits.empty() || edits.size() > kMaxEdits || !reachesBy(pair, edits)) return;
-    // Of what is written otherwise, the fewest that make the difference.
+    // Of the differing edits, the cheapest subset that reaches the target.
     const std::size_t all = std::size_t{1} << edits.size();
     double least = 1e9;
     std::vector<Edit> best;

@@ -48,7 +48,7 @@ class CandidateFinder {
 
     /// Single edits, and the edits that make the written chains equal.
     std::vector<Candidate> find(const Pair& pair) const;
-    /// Two edits: a slip that people make, and what it then takes.
+    /// Two edits: a common slip, and the edit that is needed beside it.
     std::vector<Candidate> findTwo(const Pair& pair) const;
     /// The reference's own chain in place of all that leads to the item.
     Candidate replace(const Pair& pair) const;

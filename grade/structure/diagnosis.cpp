@@ -50,7 +50,7 @@ class Subtrees {
     std::vector<bool> hasOther_;
 };
 
-/// A thing of the reference that the author has not written: by name, or by what it is.
+/// Names an item of the reference that the submission lacks, by its name or by its mesh.
 Message nameOfMissing(const Outline& theirs, int item) {
     const Outline::Item& one = theirs.items[static_cast<std::size_t>(item)];
     const auto named = [](const std::string& name) {

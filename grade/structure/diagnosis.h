@@ -43,8 +43,8 @@ struct ReferenceScene {
 /// The times to compare at: `timesS`, and later ones where either scene moves.
 std::vector<double> comparedTimes(const std::vector<double>& timesS, bool moves);
 
-/// Looks for the fewest changes of the submission's own document that make it the reference: its
-/// places first, then what stands at them, lights, the camera and settings. Throws Error as
+/// Searches the fewest changes of the submission's document that make it equal the reference:
+/// places first, then the items' appearance, lights, the camera and settings. Throws Error as
 /// MeshLibrary::get and image decoding do.
 Diagnosis diagnose(ReferenceScene& reference, const render::Prepared& submission,
                    const std::vector<double>& timesS, render::MeshLibrary& meshes);

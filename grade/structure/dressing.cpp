@@ -190,7 +190,7 @@ class Dresser {
                                                       "shape"_arg = shape);
     }
 
-    /// Another form: words for shapes, whose arguments say what is wrong.
+    /// Explains another form; for shapes by their names and arguments.
     template <typename Tell>
     void tellShape(const Outline::Item& a, const Outline::Item& b, const Tell& tell) {
         const scene::ShapeCall &expected = a.model.source.shape, &actual = b.model.source.shape;

@@ -9,8 +9,8 @@
 /// The appearance of an item at its place: its mesh, its texture, its colours.
 namespace farol::grade {
 
-/// Fixes of matched items: codes model.*, texture.*, material.*; only of what can be seen: without
-/// light, diffuse alone; shininess only where something shines.
+/// Returns fixes of matched items: codes model.*, texture.*, material.*. Visible differences only:
+/// without light, diffuse alone; shininess only with a specular highlight.
 std::vector<Fix> explainDress(const SearchContext& context, const Outline& mine,
                               const Matching& matching, bool isLit);
 
@@ -19,7 +19,7 @@ std::vector<Fix> explainDress(const SearchContext& context, const Outline& mine,
 std::vector<Fix> otherDivisions(const SearchContext& context, const Outline& mine,
                                 const Matching& matching);
 
-/// Fixes of what the whole scene is drawn with: codes shading.*, background.*, model.culling.
+/// Returns fixes of the scene's render settings: codes shading.*, background.*, model.culling.
 std::vector<Fix> explainSettings(const SearchContext& context, const Outline& mine, bool isLit);
 
 /// The reference's model with its files where a repaired scene finds them.

@@ -18,7 +18,7 @@ struct Fix {
     CauseWords words;  ///< the values are shown only where the rubric reveals them
     std::string kind;  ///< equal for the same misunderstanding at another place
     Location where;    ///< in the submission; line 0 where it lacks something
-    std::function<void(Outline&)> apply;  ///< to the submission's outline, whatever else was
+    std::function<void(Outline&)> apply;  ///< to the submission's outline, in any order
     int order = 0;                        ///< it was found after those of lower orders
     std::vector<int> items;               ///< the reference's items that it is about; may be empty
 };

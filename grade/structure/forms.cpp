@@ -11,7 +11,7 @@
 namespace farol::grade {
 namespace {
 
-constexpr double kBoxesAlike = 0.06;    // of the extents: what coarse divisions leave of a box
+constexpr double kBoxesAlike = 0.06;    // of the extents: coarse divisions shrink a box by this
 constexpr double kMomentsAlike = 0.03;  // of the extents
 
 /// unitFromMesh^-1: brings the cube of -1..1 to the bounds; flat directions keep their scale.

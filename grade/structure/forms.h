@@ -45,13 +45,13 @@ class Forms {
     std::map<std::pair<std::uint64_t, std::uint64_t>, Likeness> known_;
 };
 
-/// Returns whether an object of these bounds, object space, stands alike by both matrices: no
-/// corner is off by more than what rounding to three digits makes. `sceneSize` is the extent of the
+/// Returns whether both matrices put an object of these bounds (object space) at the same place: no
+/// corner differs by more than rounding to three digits. `sceneSize` is the extent of the
 /// reference.
 bool isSamePlace(const glm::dmat4& theirs, const glm::dmat4& mine, const render::Box& bounds,
                  Symmetry symmetry, double sceneSize);
 
-/// Their matrix, turned about the object's own symmetry to what mine is: what is left to explain.
+/// Returns `theirs`, with the orientation of `mine` if they differ by the symmetry only.
 glm::dmat4 alignedTo(const glm::dmat4& theirs, const glm::dmat4& mine, Symmetry symmetry);
 
 }  // namespace farol::grade

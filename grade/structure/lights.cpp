@@ -369,7 +369,7 @@ std::vector<Fix> explainCamera(const SearchContext& context, const Outline& mine
     // A camera that moved may still look at the same point: that is one fault, not two.
     if (cosine(theirs, ours) < kSameCos && glm::length(wanted.target - given.target) > reach)
         vector("camera.target", "lookAt", given.target, wanted.target, &scene::Camera::target);
-    // The view turns by what is across it.
+    // Only the part of `up` across the view turns the image.
     if (cosine(glm::cross(theirs, wanted.up), glm::cross(theirs, given.up)) < kSameCos)
         vector("camera.up", "up", given.up, wanted.up, &scene::Camera::up);
     if (std::abs(wanted.fovDeg - given.fovDeg) > 1e-3) {

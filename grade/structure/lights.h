@@ -7,8 +7,8 @@
 
 namespace farol::grade {
 
-/// Lights, matched by what they do rather than by order: codes light.*. Lengths of directions do
-/// not matter. Numbers are those of the light's own group. `mine` stands where the reference does.
+/// Returns fixes of lights: codes light.*. Matches lights by their effect, not by order; ignores
+/// lengths of directions. Numbers are in the light's group. Precondition: the places are equal.
 std::vector<Fix> explainLights(const SearchContext& context, const Outline& mine);
 
 /// The scenes' own cameras, as far as they show in a picture: codes camera.*.

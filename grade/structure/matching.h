@@ -21,9 +21,9 @@ struct Matching {
     std::vector<bool> isExtra;  ///< by the submission's item: no partner, and not removed
 };
 
-/// Matches items by what they look like: form, place in the world, dress, name, and how their
-/// chains of transforms are written. Those that are the same in all go first; the rest are assigned
-/// at the least sum of costs. `sceneSize` is the extent of the reference.
+/// Matches items by form, place in the world, appearance, name, and the written chain of
+/// transforms. Matches items that are equal in all of these first, and assigns the rest at the
+/// least sum of costs. `sceneSize` is the extent of the reference.
 Matching matchItems(const Side& theirs, const Side& mine, Forms& forms, Pictures& pictures,
                     double sceneSize);
 

@@ -4,8 +4,8 @@
 
 namespace farol::grade {
 
-/// The words of causes. "part.finding" is a sentence of its own, "part.predicate" follows the name
-/// of what it is about: "light 2 shines the opposite way".
+/// The messages of causes. "part.finding" is a whole sentence, "part.predicate" follows the name of
+/// its subject: "light 2 shines the opposite way".
 inline constexpr MessageRow kCauseMessages[] = {
     {"part.element/curve", "translate along points"},
     {"part.element/rotate", "rotate"},

@@ -19,8 +19,8 @@ struct Link {
     int id = 0;
 };
 
-/// A scene as flat lists, which repairs edit: a group, model or light keeps its index for good, and
-/// what is removed is only marked. Node 0 is the world, which the scene's own lights stand in.
+/// A scene as flat lists, which repairs edit. Groups, models and lights keep their indices; a
+/// removed one is only marked. Node 0 is the world, which holds the scene's own lights.
 struct Outline {
     struct Node {
         int parent = -1;
@@ -65,7 +65,7 @@ struct Outline {
     int placeOf(int node, int id) const;
 };
 
-/// Takes a scene apart; errors among its diagnostics say what placeholders stand for. Throws Error
+/// Takes a scene apart; errors among its diagnostics name the files of placeholders. Throws Error
 /// as MeshLibrary::get does.
 Outline outlineOf(const render::Prepared& prepared, render::MeshLibrary& meshes);
 

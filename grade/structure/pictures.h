@@ -10,10 +10,10 @@
 
 namespace farol::grade {
 
-/// How a texture's picture is to be turned to show what another shows.
+/// How an image has to be flipped to equal another.
 enum class Turn { none, upsideDown, mirrored, both, other };
 
-/// Compares textures by what they show, not by name or format.
+/// Compares textures by their pixels, not by name or format.
 class Pictures {
   public:
     Pictures(const scene::Assets& theirs, const scene::Assets& mine)

@@ -177,7 +177,7 @@ class Search {
         return node.links.empty() ? node.where : node.links.back().where;
     }
 
-    /// Takes back what later changes made superfluous.
+    /// Removes edits that later edits made superfluous.
     void dropUseless() {
         const std::size_t now = wrong();
         for (std::size_t k = 0; k < edits_.size() && edits_.size() > 1; ++k) {

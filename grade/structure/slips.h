@@ -13,7 +13,7 @@ namespace farol::grade {
 /// The error of one transform, where another would be right.
 struct Slip {
     std::string code;  ///< "transform.angle-sign"
-    /// Makes the words: once, for what is reported. The search discards most slips.
+    /// Makes the words; called for reported slips only, since the search discards most.
     std::function<CauseWords()> words;
     std::string kind;        ///< equal for the same misunderstanding at another place
     double effort = 1.0;     ///< how unlikely a person is to make it

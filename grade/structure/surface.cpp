@@ -19,7 +19,7 @@ constexpr double kSameNormalCos = 0.9995;  // 1.8 degrees: less than between fac
 constexpr double kNearNormalCos = 0.985;   // 10 degrees: of another division's flank
 constexpr float kSameUv = 0.004F;          // about a texel of 256
 constexpr float kNearUv = 0.02F;
-constexpr double kSamePlace = 1e-4;  // of the extents: what text files round
+constexpr double kSamePlace = 1e-4;  // of the extents: rounding in text files
 constexpr double kOnSurface = 4e-3;  // of the extents: facets of 96 divisions
 constexpr double kCovered = 0.05;    // of the extents: facets of 16 divisions
 

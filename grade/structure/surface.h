@@ -9,9 +9,9 @@
 
 namespace farol::grade {
 
-/// How two meshes at their places differ: shares 0..1 of the submission's corners. Positions,
-/// normals and texture coordinates are compared whatever the order of vertices and triangles, and
-/// however the surface is divided.
+/// How two meshes at their places differ: shares 0..1 of the submission's corners. The comparison
+/// of positions, normals and texture coordinates does not depend on the order of vertices and
+/// triangles, nor on the tessellation.
 struct Surface {
     bool isCompared = false;  ///< false: too large, or nothing to compare
     double common = 0;        ///< the smaller share, of either, of corners on the other's surface
@@ -22,9 +22,9 @@ struct Surface {
     bool hasUvs = false;             ///< both have texture coordinates
     double uvSame = 0, uvUpsideDown = 0, uvMirrored = 0, uvBoth = 0, uvSwapped = 0;
 
-    /// Returns whether both are one surface, whatever their normals and coordinates.
+    /// Returns whether both are one surface, ignoring normals and texture coordinates.
     bool isOnePlace() const;
-    /// Returns whether nothing of what is above differs by more than rounding. `textured`: the
+    /// Returns whether nothing above differs by more than rounding. `textured`: texture
     /// coordinates count.
     bool isSame(bool textured) const;
 };

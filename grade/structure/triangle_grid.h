@@ -11,7 +11,7 @@
 
 namespace farol::grade {
 
-/// A point of a triangle, with what is interpolated there.
+/// Interpolated attributes at a point of a triangle.
 struct SurfacePoint {
     glm::dvec3 normal{0.0};
     glm::vec2 uv{0.0F};

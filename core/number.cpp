@@ -11,7 +11,7 @@
 namespace farol {
 namespace {
 
-/// from_chars says "out of range" for both ends; the exponent's sign tells which one it was.
+/// True if a number that from_chars calls "out of range" is too small, by the exponent's sign.
 bool underflows(std::string_view digits) {
     const std::size_t e = digits.find_first_of("eE");
     if (e == std::string_view::npos) return digits.find_first_of("123456789") > digits.find('.');

@@ -14,7 +14,7 @@ class ApngWriter {
     ApngWriter(int frames, double fps, bool alpha);
     /// Throws std::invalid_argument when the size differs or there are too many frames.
     void add(const Image& frame);
-    /// The file. Throws std::logic_error when frames are missing.
+    /// Returns the file. Throws std::logic_error when frames are missing.
     std::string finish();
 
   private:

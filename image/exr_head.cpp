@@ -18,7 +18,7 @@ constexpr std::int64_t kMaxChunkBytes = std::int64_t{128} << 20;
 constexpr std::int64_t kMaxBytes = kMaxTexturePixels * 16;  // four floats a pixel
 constexpr std::size_t kMaxChannels = 64, kMaxParts = 64;
 
-/// Rows of one chunk, by the number of the compression.
+/// Rows of one chunk, by the file's number of the compression.
 constexpr std::array<int, 10> kRowsAChunk{1, 1, 1, 16, 32, 16, 32, 32, 32, 256};
 
 std::int32_t i32(ByteReader& in) { return static_cast<std::int32_t>(in.u32()); }
@@ -77,7 +77,7 @@ void readTiles(ByteReader in, Part& part) {
     part.head.tileHeight = static_cast<int>(height);
 }
 
-/// Attributes whose values announce sizes that differ from the bytes they have.
+/// Throws for a preview whose announced size differs from its bytes, and for deep images.
 void checkAttribute(const std::string& type, ByteReader in) {
     if (type == "idmanifest") throw std::runtime_error("deep images are not read");
     if (type != "preview") return;
@@ -136,7 +136,7 @@ std::int64_t checkPart(const Part& part) {
 }  // namespace
 
 ExrHead readExrHead(std::string_view bytes) {
-    constexpr std::int64_t kMinChunk = 16;  // its offset, its place, its size
+    constexpr std::int64_t kMinChunk = 16;  // bytes: offset, coordinates, size
     ByteReader in(bytes);
     in.skip(4);
     const std::uint32_t version = in.u32();

@@ -12,7 +12,7 @@ namespace farol::image {
 /// chunk; 1 where there is none or it is damaged.
 int orientationOf(std::string_view bytes);
 
-/// Turns the image as the tag says; without samples its size alone. Precondition: 1 to 8.
+/// Rotates and flips the image by the tag; without samples its size alone. Precondition: 1 to 8.
 void orient(Decoded& image, int orientation);
 
 }  // namespace farol::image

@@ -45,7 +45,7 @@ struct ShapeEntry {
     std::string summary = {};  ///< its geometry in one sentence
     std::vector<Argument> arguments = {};
     std::size_t required = 0;
-    std::string usage = {};        ///< how its arguments are written, where brackets cannot say it
+    std::string usage = {};        ///< syntax of its arguments, where brackets cannot express it
     bool takesFile = false;        ///< the first word after the name is a profile or patch file
     std::string fileEnding = {};   ///< ".patch": files that are this shape by their names
     std::string builtinFile = {};  ///< the file where none is written, with its name as an alias
@@ -66,9 +66,9 @@ struct ShapeEntry {
     /// their order, that keep the fineness. Null where the mesh is exact.
     std::vector<double> (*bound)(const ShapeCall& call, const std::string& fileBytes,
                                  const Fineness& fineness) = nullptr;
-    /// Makes the mesh that keeps the fineness, for a shape whose divisions differ from place to
-    /// place; adds to `divisions` all that distinguishes it. Null where the level arguments say
-    /// them.
+    /// Makes a mesh that keeps the fineness, for a shape whose divisions differ by edge. Returns
+    /// in `divisions` the numbers that identify the mesh. Null where the level arguments give all
+    /// divisions.
     Mesh (*adapt)(const ShapeCall& call, const std::string& fileBytes, const Fineness& fineness,
                   std::vector<std::size_t>& divisions) = nullptr;
     /// The exact surface that the mesh stands for. Null where the mesh is exact, or no kind of

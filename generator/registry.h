@@ -35,8 +35,8 @@ std::size_t countTriangles(const ShapeCall& call, const scene::Assets& assets);
 
 /// Fills in Model::source of every model of the scene (entity included), and Texture::path,
 /// Background::path and Skybox::path: 1. a file of that name in the bundle; 2. a generator
-/// comment; 3. the name itself ("cone_1_2_4_3.3d"); built-ins last. Says where each model came
-/// from (severity info) and checks shape arguments. Adds an error for each missing file; does
+/// comment; 3. the name itself ("cone_1_2_4_3.3d"); built-ins last. Reports the source of each
+/// model (severity info) and checks shape arguments. Adds an error for each missing file; does
 /// not throw.
 void resolve(scene::Scene& scene, const scene::Assets& assets, Diagnostics& diagnostics);
 

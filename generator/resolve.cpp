@@ -136,7 +136,7 @@ class ModelFinder {
         return path;
     }
 
-    /// The shape that a home-made mesh file's name or comment says, for when its form is unknown.
+    /// Returns the shape of a home-made mesh file's name or comment, used if its format is unknown.
     std::optional<ShapeCall> fallbackOf(const scene::Model& model) {
         if (fileEnding(model.file) != "3d") return std::nullopt;
         Diagnostics unheard;  // of a guess that is seldom used
@@ -152,13 +152,13 @@ class ModelFinder {
                 if (call.entry->takesFile) continue;
                 countTriangles(call, assets_);  // throws over the limit
                 return call;
-            } catch (const Error&) {  // then it says nothing
+            } catch (const Error&) {  // not a valid shape
             }
         }
         return std::nullopt;
     }
 
-    /// A comment that makes no sense counts for nothing where the name itself says all.
+    /// Resolves by a comment; ignores an invalid one if the name alone describes the shape.
     std::optional<ModelSource> fromComment(const Words& words, const std::optional<Words>& named,
                                            const scene::Model& model) {
         try {

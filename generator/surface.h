@@ -37,7 +37,7 @@ struct SurfaceKind {
 struct Surface {
     const SurfaceKind* kind = nullptr;
     glm::dvec3 lengths{1.0};
-    glm::dvec2 form{0.0};  ///< proportions, as its kind says
+    glm::dvec2 form{0.0};  ///< proportions, defined by the kind
     /// Texture coordinates of the curved part: u = uv.x + uv.y * turn, v = uv.z + uv.w * share. The
     /// turn 0..1 about Y runs from +Z towards +X (from +X towards -Z with turnFromX); the share
     /// 0..1 from pole to pole, up the side, about the tube, or from hole to rim; of a turned

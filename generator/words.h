@@ -15,7 +15,7 @@ std::vector<std::string> splitWords(const std::string& text);
 /// Whether splitWords gives the text back as its only word.
 bool isOneWord(const std::string& text);
 
-/// The words that a file name says: "cone_1_2_4_3.3d" is {"cone", "1", "2", "4", "3"}, and
+/// Returns the words of a file name: "cone_1_2_4_3.3d" is {"cone", "1", "2", "4", "3"}, and
 /// "bezier_10.3d" {"patch", "teapot.patch", "10"}; the ending may be missing after a number.
 /// Nothing when the name is no shape's.
 std::optional<std::vector<std::string>> wordsOfName(const std::string& fileName);

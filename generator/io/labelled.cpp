@@ -111,7 +111,7 @@ class LabelReader {
         return nan ? tokenEnd(line, at) : end;
     }
 
-    /// Numbers behind an unknown word say something else than the mesh.
+    /// Ends a run of numbers; drops one after an unknown word.
     void flush(bool unknown) {
         columns_ = 0;
         gathered_.add(unknown ? Role::none : role_, run_, line_);
@@ -187,7 +187,7 @@ class ElementReader {
         if (!closed && roles_.size() < kMaxDepth) roles_.push_back(role);
     }
 
-    /// Name, =, value in quotes; values that are no numbers say nothing.
+    /// Reads name, =, value in quotes; ignores values that are no numbers.
     void readAttributes(std::string_view rest, Role role) {
         std::vector<double> places, normals, uvs, corners;
         while (true) {

@@ -55,7 +55,7 @@ class Cells {
         return values_ != nullptr ? (*values_)[at] : double{std::bit_cast<float>(word(at))};
     }
     /// Whether the rows of a text agree with a list: it begins and ends with a row, and each of its
-    /// rows holds whole entries or one number. A text of one row says nothing.
+    /// rows holds whole entries or one number. A text of one row agrees with any list.
     bool fits(std::size_t first, std::size_t numbers, std::size_t width) const {
         if (rows_ == nullptr || rows_->rows.size() == 1) return true;
         auto row =

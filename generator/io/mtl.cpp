@@ -102,7 +102,7 @@ class MtlReader {
         scene::PartMaterial& part = materials_.back();
         scene::Material& material = part.material;
         if (isDull_) material.specular.rgb = glm::vec3(0.0F);
-        // Exporters write a black Kd where the picture says all.
+        // Exporters write a black Kd where the texture gives the whole colour.
         if (part.texture && material.diffuse.rgb == glm::vec3(0.0F))
             material.diffuse.rgb = glm::vec3(1.0F);
         material.ambient.rgb = 0.25F * material.diffuse.rgb;

@@ -91,7 +91,7 @@ class OffReader {
         at += head_.normals ? 3 : 0;
         colorAt_ = at;
         if (head_.uvs) mesh_.uvs.emplace_back(v[row.count - 2], v[row.count - 1]);
-        // Without letters that say so: colours behind the place, as many programs write them.
+        // Without letters in the head: colours after the position, as many programs write them.
         const std::size_t extra = row.count - at - (head_.uvs ? 2 : 0);
         if (!head_.colors && extra > 0) ++mesh_.leftOut["numbers behind a vertex's own"];
     }

@@ -22,7 +22,7 @@ struct Range {
 
 /// Whole turns to take off: 0 where a float holds the coordinates well enough.
 double turnsOf(const Range& range) {
-    constexpr double kFar = 32.0;  // a float then tells a texel of 4096 from a hundredth of it
+    constexpr double kFar = 32.0;  // up to here a float resolves 1/100 of a texel of 4096
     const double middle = range.middle();
     const bool far = std::abs(middle) > std::max(kFar, 8.0 * range.size());
     return far && std::isfinite(middle) ? std::floor(middle) : 0.0;
@@ -35,7 +35,7 @@ std::vector<glm::vec2> settleUvs(RawMesh& raw, glm::dvec2& turns) {
         if (std::isnan(uv.x) || std::isnan(uv.y)) {
             uv = glm::dvec2(0.0);
             ++lost;
-            continue;  // says nothing about where the others are
+            continue;  // not part of the range
         }
         u.add(uv.x);
         v.add(uv.y);
@@ -51,7 +51,7 @@ std::vector<glm::vec2> settleUvs(RawMesh& raw, glm::dvec2& turns) {
 }  // namespace
 
 glm::dvec3 originOf(const std::vector<glm::dvec3>& positions) {
-    constexpr double kFar = 64.0;  // sizes: a float then tells 1/250,000 of the mesh apart
+    constexpr double kFar = 64.0;  // sizes: up to here a float resolves 1/250,000 of the mesh
     Range range[3];
     for (const glm::dvec3& p : positions)
         for (int k = 0; k < 3; ++k) range[k].add(p[k]);

@@ -21,7 +21,7 @@ std::uint32_t wordAt(std::string_view bytes, std::size_t at) {  // little-endian
     return word;
 }
 
-/// A binary file says its length itself; some of them begin with "solid", too.
+/// True if a file has the length in its head: then it is binary, even if it begins with "solid".
 bool hasItsLength(std::string_view bytes) {
     return bytes.size() >= kStlHeader &&
            bytes.size() == kStlHeader + kTriangle * std::size_t{wordAt(bytes, kStlHeader - 4)};

@@ -63,7 +63,7 @@ Mesh dome(double radius, std::size_t slices, std::size_t stacks) {
     for (std::size_t i = 0; i < slices; ++i) {
         const double middle = fraction(2 * i + 1, 2 * slices);
         const std::uint32_t pole = builder.vertex({0, radius, 0}, {0, 1, 0}, {middle, 1});
-        // The last corner tells the shader flat parts (hasCaps) by its normal: not the pole, then.
+        // Not the pole as the last corner: by its normal the shader detects flat parts (hasCaps).
         builder.triangle(pole, at(i, stacks - 1), at(i + 1, stacks - 1));
     }
     const glm::dvec3 down(0, -1, 0);

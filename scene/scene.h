@@ -128,7 +128,7 @@ struct ModelSource {
     bool isSheet = false;  ///< a flat shape that is seen from one side only
     /// file: the materials of its parts, used where the scene gives the model none.
     std::shared_ptr<const std::vector<PartMaterial>> materials = {};
-    /// file: the shape that its name or a comment says, made where the file's form is unknown.
+    /// file: the shape of its name or comment, generated if the file's format is unknown.
     std::optional<ShapeCall> fallback = {};
     bool operator==(const ModelSource&) const = default;
 };

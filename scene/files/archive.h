@@ -45,7 +45,7 @@ class ArchiveAssets final : public Assets {
     struct File {
         std::shared_ptr<const std::string> archive;  ///< that holds it
         std::string name;                            ///< in there
-        std::uint64_t size = 0;                      ///< as it says
+        std::uint64_t size = 0;                      ///< in its directory
     };
     void follow(const std::map<std::string, std::string>& links, std::map<std::string, File>& files,
                 const std::string& prefix);

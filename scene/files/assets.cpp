@@ -36,7 +36,7 @@ struct Descriptor {
     int fd;
 };
 
-/// Whether an errno says nothing of the file: the process or the machine is short of something.
+/// True for an errno that is no fault of the file: the process or the machine lacks resources.
 bool isPassing(int error) {
     return error == EMFILE || error == ENFILE || error == ENOMEM || error == EIO;
 }

@@ -25,7 +25,7 @@ class Assets {
     virtual std::optional<std::string> read(const std::string& path) const = 0;
     /// The file's size, or nothing where there is no such file.
     virtual std::optional<std::uint64_t> size(const std::string& path) const = 0;
-    /// Says that these files will be read next: an archive reads them in one pass.
+    /// Announces that these files will be read next: an archive reads them in one pass.
     virtual void prefetch(const std::vector<std::string>& /*paths*/) const {}
     /// A token that changes when the file's content may have changed, for cache keys.
     virtual std::string version(const std::string& path) const = 0;
@@ -56,7 +56,7 @@ class BundleAssets final : public Assets {
     std::shared_ptr<Digests> digests_;
 };
 
-/// Tells a folder from another one under the same path.
+/// Identifies a folder, since another one may replace it under the same path.
 struct FolderIdentity {
     std::uint64_t device = 0, inode = 0;
     std::int64_t bornS = 0, bornNs = 0;  ///< its birth, where the file system knows it

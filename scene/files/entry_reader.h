@@ -35,7 +35,7 @@ class EntryReader {
     /// The target of a link, symbolic or hard, as a path in the archive: "" where that is outside.
     /// Nothing for a file. A link has no content.
     const std::optional<std::string>& link() const { return link_; }
-    std::uint64_t size() const { return size_; }  ///< as the archive says; 0 where it does not
+    std::uint64_t size() const { return size_; }  ///< in the archive's directory; 0: unknown
     /// The file's bytes. Throws Error limit.bundle where there are more than `left`, bundle.entry
     /// for one that is encrypted or packed by a method that is not read.
     std::string content(std::size_t left);

@@ -80,7 +80,7 @@ std::optional<Color> SceneBuilder::colorText(std::string_view text) const {
 }
 
 /// Reads other forms of a colour: "ff8800", "0xff8800", "#ff8800ff" without its alpha,
-/// "rgb(255, 136, 0)", and three numbers of 0 to 1. `reading` says how the text was read.
+/// "rgb(255, 136, 0)", and three numbers of 0 to 1. Sets `reading` to the colour's standard form.
 std::optional<Color> SceneBuilder::looseColor(std::string_view text, std::string& reading) const {
     constexpr std::size_t kDigits = 6, kWithAlpha = 8;
     std::string_view digits = text;

@@ -10,7 +10,7 @@
 namespace farol::scene {
 namespace {
 
-/// Attributes of XML itself and of schemas, which say nothing about the scene.
+/// True for attributes of XML itself and of schemas, which do not describe the scene.
 bool isForeign(std::string_view name) {
     return name.substr(0, 5) == "xmlns" || name.substr(0, 4) == "xml:" ||
            name.substr(0, 4) == "xsi:";
@@ -73,7 +73,7 @@ class AttributeReader {
     }
 
   private:
-    /// `unknown` error: an attribute that nobody knows is an error.
+    /// Reports an unknown attribute as an error or a warning, by `unknown`.
     void unknownName(pugi::xml_attribute attribute, Unknown unknown, Values& values) {
         const std::string hint = suggestion(attribute.name(), attributeNames(spec_), findings_);
         Message text = message<"scene.unknown-attribute">(

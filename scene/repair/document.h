@@ -8,8 +8,8 @@
 
 namespace farol::scene {
 
-/// One XML document, repaired and parsed, that knows where its names and values stood in the
-/// source. Reading private to the scene folder: nobody else meets pugixml.
+/// One XML document, repaired and parsed, with the source locations of its names and values.
+/// Private to the scene folder: no other code uses pugixml.
 class Document {
   public:
     /// Throws Error as `repair` does; other faults go to `findings`.

@@ -28,7 +28,7 @@ bool declaresLatin1(std::string_view text) {
     return false;
 }
 
-/// Says how to close an element that was left open.
+/// Returns the fix for an element that was left open.
 Message closing(std::string_view name) {
     for (const ElementSpec& one : elementSpecs())
         if (one.children.empty() && (sameWord(one.name, name) || isAmong(one.aliases, name)) &&

@@ -9,13 +9,13 @@
 namespace farol::worker {
 namespace {
 
-// How often an idle worker is looked at, so that one that died is replaced before it is needed.
+// Interval of checks of idle workers, so that a dead one is replaced before it is needed.
 constexpr std::chrono::milliseconds kLook{200};
-// How often a request is begun whose worker somebody else kills. That is not the request's doing,
-// unless the kernel did it for want of memory: so not often.
+// Most attempts of a request whose worker is killed from outside. That is not the request's
+// fault, unless the kernel ran out of memory: so few.
 constexpr int kTries = 3;
 
-// A start takes a core for a quarter of a second: side by side pays up to a few.
+// A start takes a core for a quarter of a second: parallel starts pay up to a few.
 constexpr int kStarters = 4;
 
 // Processor time that a worker without a job may use: freeing memory, writing caches.

@@ -27,11 +27,11 @@ struct QueueLimits {
     std::chrono::milliseconds deadline{10'000};  ///< for the work itself
 };
 
-/// A bounded queue of jobs for workers of type Worker. A job that nobody has taken after
-/// `limits.wait` is withdrawn; one that is not done after `limits.deadline` is given up (its
-/// worker ends it in its own time, the result is dropped). A job goes to the free worker whose
-/// last job had the same key (it has the scene warm), else to the one that is free the longest.
-/// Of the jobs of one session only the newest waits: it takes the place of the older ones.
+/// A bounded queue of jobs for workers of type Worker. A job that no worker has taken after
+/// `limits.wait` is withdrawn; one that is not done after `limits.deadline` is abandoned (its
+/// worker finishes it, the result is dropped). A job goes to the idle worker whose last job had
+/// the same key (it has the scene cached), else to the one that is idle the longest.
+/// Of the jobs of one session only the newest waits: it replaces the older ones.
 template <typename Worker>
 class JobQueue {
     struct Ticket {

@@ -27,7 +27,7 @@ struct ReplyLimits {
 struct TaskTraits {
     /// Identical jobs in flight share one reply.
     static constexpr bool kIsShared = false;
-    /// The job has no bound of cost and is never put into quarantine: it says whether a worker
+    /// The job has no bound of cost and is never put into quarantine: it checks whether a worker
     /// works.
     static constexpr bool kIsExempt = false;
 };

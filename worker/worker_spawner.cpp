@@ -85,7 +85,7 @@ std::unique_ptr<WorkerProcess> WorkerSpawner::take(std::chrono::milliseconds pat
         if (stopping_ || processes_.empty()) break;
         process = std::move(processes_.front());
         processes_.pop_front();
-        if (process->alive() && !process->isStale()) break;  // else nobody can use it any more
+        if (process->alive() && !process->isStale()) break;  // else it is unusable
         process.reset();
     }
     --waiting_;

@@ -20,7 +20,7 @@ class WorkerSpawner {
     struct Options {
         WorkerOptions worker;
         int starters = 1;  ///< processes started side by side, 1 or more
-        int spares = 1;    ///< kept ready beyond those that somebody waits for
+        int spares = 1;    ///< kept ready in addition to the processes that are waited for
     };
     /// Called for each start that failed, by several threads.
     using Report = std::function<void(const std::string& fault)>;
@@ -36,8 +36,8 @@ class WorkerSpawner {
     /// Returns an initialised process; waits for one until `patience` is over, then null. Null at
     /// once after stop().
     std::unique_ptr<WorkerProcess> take(std::chrono::milliseconds patience);
-    /// Starts no more and ends those that nobody took. The starters stay until the destructor,
-    /// because a worker dies with the thread that started it.
+    /// Starts no more and ends the processes not taken yet. The starter threads stay until the
+    /// destructor, because a worker dies with the thread that started it.
     void stop();
 
   private:

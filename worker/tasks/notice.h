@@ -4,8 +4,8 @@
 
 namespace farol::worker {
 
-/// Draws a text in lines on a dark ground, as large as the options say (480 x 270 px where they do
-/// not).
+/// Renders a text in lines on a dark background, at the size of the options (480 x 270 px where
+/// unset).
 struct NoticeTask : TaskTraits {
     static constexpr const char* kName = "notice";
     struct Request {

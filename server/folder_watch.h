@@ -9,9 +9,9 @@
 
 namespace farol::server {
 
-/// Tells whether anything below a folder may have changed, without looking at its files (inotify).
-/// The kernel notes a change before the call that makes it returns, so one made before revision()
-/// is called is seen. Changes without a note (another machine's writes to a shared disk, a mapped
+/// Detects changes below a folder without reading its files (inotify). The kernel queues an event
+/// before the system call that makes the change returns, so that revision() reports every earlier
+/// change. Changes without an event (another machine's writes to a shared disk, a mapped
 /// file, a hard link elsewhere) are covered by a new revision each second.
 class FolderWatch {
   public:

@@ -10,9 +10,9 @@
 
 namespace farol::server {
 
-/// Writes lines to a descriptor in a thread, in their order. write() never waits: while nobody
-/// reads the other end, lines beyond the queue's bound are dropped and counted. The same holds
-/// where the descriptor is closed, its reader has gone or its disk is full.
+/// Writes lines to a descriptor in a thread, in their order. write() never blocks: while the other
+/// end is not read, drops and counts the lines over the queue's bound. Does the same if the
+/// descriptor is closed, its reader has gone or its disk is full.
 class LogWriter {
   public:
     struct Options {

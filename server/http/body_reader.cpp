@@ -5,10 +5,10 @@
 
 namespace farol::server::http {
 namespace {
-// Of a line that says a chunk's size, with its extension.
+// Of a line with a chunk's size and its extension.
 constexpr std::size_t kMaxLine = 256;
 constexpr std::size_t kMaxSizeDigits = 16;
-// Of all extensions and leading zeros together: a body costs no more than its bytes deserve.
+// Of all extensions and leading zeros together: bounds the cost of a body with few bytes.
 constexpr std::size_t kMaxExtensions = 16 * 1024;
 }  // namespace
 

@@ -31,7 +31,7 @@ class Link {
     bool isPending() const { return sent_ < out_.size(); }
     bool isBroken() const { return broken_; }
 
-    /// Says that nothing more will be sent (RFC 9112 section 9.6).
+    /// Shuts down the sending side (RFC 9112 section 9.6).
     void endSending();
     /// Bytes of memory that wait for the client.
     std::size_t held() const { return in_.size() + out_.size() - sent_; }

@@ -229,7 +229,7 @@ void Listener::sweep() {
     for (const auto& [client, phase] : late) giveUp(*client, phase);
 }
 
-// A thread has the last word with a client that is too slow: to tell it so, or the log.
+// Ends the connection of a client that is too slow; a thread then sends 408 or logs it.
 void Listener::giveUp(Client& client, Phase phase) {
     if (phase == Phase::idle || phase == Phase::lingering) return drop(client);
     if (phase == Phase::holding) {

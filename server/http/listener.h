@@ -47,7 +47,7 @@ struct ListenOptions {
 /// the most connections without a request loses the one that has waited longest.
 class Listener {
   public:
-    /// Binds and listens. Throws std::runtime_error that says why it cannot.
+    /// Binds and listens. Throws std::runtime_error with the reason.
     Listener(const ListenOptions& options, Handler& handler);
     ~Listener();
     Listener(const Listener&) = delete;

@@ -56,7 +56,7 @@ void Listener::acceptSome() {
         if (fd >= 0) {
             admit(fd, std::move(address));
         } else if (errno != EINTR && errno != ECONNABORTED) {
-            // Out of descriptors or memory, which accept() also says when nobody waits.
+            // Out of descriptors or memory: accept() reports these even without a connection.
             if (errno == EAGAIN || !isOneWaiting(listenFd_)) return;
             if (!makeRoom("")) return accept(false);
         }

@@ -113,8 +113,8 @@ bool Listener::othersWait() const {
     return !queue_.empty();
 }
 
-// The next request of a client that asks one after the other comes within a moment: taking it here
-// saves two wake-ups. Nobody must wait for this thread meanwhile.
+// The next request of a client that sends them one after another arrives at once: reading it here
+// saves two wake-ups. Only while no other request waits for a thread.
 bool Listener::nextIsHere(Client& client) {
     if (othersWait()) return false;
     pollfd wait{client.link.fd(), POLLIN, 0};

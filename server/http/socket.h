@@ -4,8 +4,8 @@
 
 namespace farol::server::http {
 
-/// A non-blocking socket that listens on host and port (0: any free one). Throws
-/// std::runtime_error that says why it cannot.
+/// Returns a non-blocking socket that listens on host and port (0: any free one). Throws
+/// std::runtime_error with the reason.
 int listenOn(const std::string& host, int port);
 
 /// True if all addresses of the host are the machine's own. False where it has none.

@@ -8,7 +8,7 @@
 namespace farol::server {
 namespace {
 
-// Digests are compared, so that the time taken tells nothing of where the texts differ.
+// Compares digests, so that the time taken does not reveal the position of the difference.
 bool sameSecret(const std::string& a, const std::string& b) {
     return contentDigest(a) == contentDigest(b);
 }

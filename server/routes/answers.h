@@ -11,7 +11,7 @@ namespace farol::server {
 
 /// JSON, indented.
 http::Response jsonResponse(const nlohmann::json& value);
-/// JSON that nobody keeps: the answer to a body that was sent.
+/// Returns JSON that no cache keeps: the response to a request with a body.
 http::Response freshJson(const nlohmann::json& value);
 /// The body with its tag, or 304.
 http::Response tagged(const Call& call, std::string body, const std::string& type);

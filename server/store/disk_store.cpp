@@ -81,7 +81,7 @@ void DiskStore::setAside(const std::string& path, const std::string& why) {
         log_(name + " is set aside: " + why);
 }
 
-// A digest that does not match is damage. All other failures say nothing of the file.
+// Only a wrong digest means damage. All other failures are not the file's fault.
 DiskStore::Loaded DiskStore::load(const std::string& path, Stored& scene, int& error) const {
     const FileContent file = readWhole(path, kMaxFileBytes);
     error = file.error;

@@ -162,7 +162,7 @@ void RedisLink::give(Connection connection) {
     if (free_.size() < kMaxFreeConnections) free_.push_back(std::move(connection));
 }
 
-/// Says each change once. An empty fault: all is well.
+/// Logs each change of the state once. An empty `fault`: reachable.
 void RedisLink::note(const std::string& fault, Clock::time_point failedAt) {
     {
         const std::lock_guard lock(mutex_);

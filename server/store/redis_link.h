@@ -35,11 +35,11 @@ struct RedisReply {
     std::vector<RedisReply> parts;
 };
 
-/// Redis says no: "OOM command not allowed ...".
+/// An error reply of Redis: "OOM command not allowed ...".
 class RedisRefusal : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
-/// Redis cannot be asked now.
+/// Redis is unreachable.
 class RedisAway : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };

@@ -13,7 +13,7 @@ namespace {
 constexpr int kRetryAfterOutageS = 5;  // a Redis that starts again is there by then
 constexpr int kRetryAfterChangeS = 1;
 constexpr const char* kAsideS = "604800";  // damaged files are kept for a week
-constexpr int kRetryAfterFullS = 60;       // somebody has to make room
+constexpr int kRetryAfterFullS = 60;       // until scenes expire or are removed
 // In a cluster, one node has all of it: the scripts need that.
 constexpr const char* kPrefix = "{farol}";
 constexpr int kMaxRounds = 1'000;  // of expiring, each of at most a thousand scenes

@@ -46,14 +46,14 @@ class SceneStore {
         Entry entry;
         bool created = false;  ///< it was not there before
     };
-    /// Keeps the bundle; when it returns, it is kept for good. One that is there already lives
-    /// on from now; `listed` is added and never taken away. When the store is full, the scenes
-    /// that nobody asked for the longest make room. Throws Error limit.store for one that alone is
-    /// larger than the store.
+    /// Stores the bundle durably before it returns. The expiry of a bundle that is there already
+    /// starts anew; `listed` is set and never cleared. A full store evicts the least recently
+    /// requested scenes. Throws Error limit.store for a bundle that alone is larger than the
+    /// store.
     virtual Put put(const scene::Bundle& bundle, bool listed) = 0;
     /// The same on behalf of a client. A store in memory gives one client a share of its room, and
-    /// makes room from the client's own scenes and from those that nobody used for an hour only:
-    /// Busy store.full where that is not enough.
+    /// evicts only the client's own scenes and scenes unused for an hour. Throws Busy store.full
+    /// where that is not enough.
     virtual Put putFor(const std::string& client, const scene::Bundle& bundle, bool listed) {
         static_cast<void>(client);
         return put(bundle, listed);

@@ -53,8 +53,8 @@ void addWorker(CLI::App& root, Action& action);
 /// Returns the exit code of `work`; an exception becomes an exit code and an entry of the report.
 int runGuarded(const std::function<int()>& work, Report& report);
 
-/// Lets the option take finite numbers from min to max (CLI::Range lets NaN pass), and its help
-/// say so, with the default.
+/// Restricts the option to finite numbers from min to max (CLI::Range lets NaN pass), and adds the
+/// range and the default to its help.
 void takesNumber(CLI::Option* option, double min, double max);
 
 /// "farol 0.2.0", then the renderer's own line.

@@ -49,7 +49,7 @@ std::string allShapes() {
            "converted.";
 }
 
-/// Words that no flag took. Numbers may be negative: the shape says whether it takes them.
+/// Returns the words that are no flags. Numbers may be negative: the shape checks them.
 std::vector<std::string> wordsOf(const CLI::App& command) {
     const std::vector<std::string> words = command.remaining();
     for (const std::string& word : words)

@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Sets the entry where there is something to say.
+/// Sets the entry unless the text is empty.
 void setText(Json& object, const char* key, std::string_view text) {
     if (!text.empty()) object[key] = text;
 }

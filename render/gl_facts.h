@@ -9,12 +9,12 @@ namespace farol::render {
 /// Positions of samples within a pixel, 0..1 from its lower left.
 using SamplePattern = std::vector<glm::dvec2>;
 
-/// Facts that a GL reports about itself: plan and painter rely on nothing else about it. The
-/// defaults are the minima of GL 4.5; a plan made with them fits any.
+/// Limits and properties that a GL reports: plan and painter depend on no others. The defaults are
+/// the minima of GL 4.5; a plan made with them fits any GL.
 struct GlFacts {
-    /// Of multisampled targets, by their number of samples, ascending. Empty: there are none.
+    /// Of multisampled targets, in ascending order of samples. Empty: not supported.
     std::vector<SamplePattern> samplePatterns;
-    double snapPx = 1.0 / 32.0;     ///< by which the rasteriser's grid moves a vertex at most
+    double snapPx = 1.0 / 32.0;     ///< most that the rasteriser's grid moves a vertex, px
     int maxTextureSide = 16384;     ///< px
     int maxFaceSide = 16384;        ///< of a cube map, px
     int maxTargetSide = 16384;      ///< of a render target, px

@@ -16,33 +16,33 @@ namespace farol::grade {
 /// was smoothed, costs nothing. Colours as composited over black.
 Plane beyondAPixel(const image::Image& first, const image::Image& second, int full);
 
-/// The least rectangle that holds every pixel which is not the same in both; empty where none is.
+/// Returns the smallest rectangle with all pixels that differ; empty if the images are equal.
 /// Precondition: one size.
 Rectangle differing(const image::Image& first, const image::Image& second);
 
-/// Levels at which a difference of colour counts whole: plain to see beside one another.
+/// Levels of a full difference of colour: plainly visible side by side.
 inline constexpr int kFullLevels = 64;
 
-/// The pixels that show something in either picture: not the reference's most frequent colour at
-/// the border, within six levels. All of them where fewer than 1 in 1,000 do.
+/// Returns the pixels with content in either image: more than six levels from the reference's
+/// most frequent colour at the border. All pixels where fewer than 1 in 1,000 have content.
 Mask contentOf(const image::Image& reference, const image::Image& submission);
 
-/// Both where both count.
+/// Returns the intersection.
 Mask both(const Mask& a, const Mask& b);
 
-/// The sum of a plane over the pixels that count, by their number; `least` px are counted at
-/// least, so that a speck does not decide.
+/// Returns the mean of a plane over the mask's pixels; divides by `least` px at least, so that
+/// a few pixels do not decide.
 double shareOf(const Plane& plane, const Mask& mask, double least = 64.0);
 
-/// One picture of layer=id as numbers; 0: nothing.
+/// Decodes a layer=id image to object numbers; 0: no object.
 std::vector<std::uint32_t> idsOf(const image::Image& layer);
 
-/// 1 - the mean IoU over the objects that either picture shows, edges of a pixel tolerated. Ids of
-/// both pictures name the same objects; larger objects weigh by the root of their area.
+/// Returns 1 - the mean IoU of the objects visible in either image, tolerating edges of one pixel.
+/// Ids of both images name the same objects; the weight of an object is the root of its area.
 double uncovered(const std::vector<std::uint32_t>& reference,
                  const std::vector<std::uint32_t>& submission, int width, int height);
 
-/// The pixels where both pictures show the same object.
+/// Returns the pixels that show the same object in both images.
 Mask shared(const std::vector<std::uint32_t>& reference,
             const std::vector<std::uint32_t>& submission);
 

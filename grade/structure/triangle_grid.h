@@ -22,7 +22,7 @@ class TriangleGrid {
   public:
     TriangleGrid(const generator::Mesh& mesh, const glm::dmat4& matrix);
 
-    /// Calls `each` with the nearest point of every triangle within `reach` of the place, of few
+    /// Calls `each` with the nearest point of every triangle within `reach` of the place, for 16
     /// triangles at most. Returns whether there is one.
     bool near(const glm::dvec3& place, double reach,
               const std::function<void(const SurfacePoint&)>& each) const;

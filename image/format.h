@@ -27,13 +27,13 @@ struct FormatSpec {
     bool isLossy;              ///< takes a quality
     /// First bytes of every file; '?' is any byte.
     std::string_view signature;
-    /// Bound of the size of a file beside its head, on which replies of workers are checked.
+    /// Upper bound of a file's size without its head, used to check replies of workers.
     double maxBytesPerPixel;
     std::string (*encode)(const Image& image, int quality);
 };
 
-/// Everything that is known of the formats. Flags, parameters, negotiation, file endings, help and
-/// the description of the interface follow. Of formats that a client likes alike the first is sent.
+/// The table of formats: source of flags, parameters, content negotiation, file endings, help and
+/// the OpenAPI description. Of formats with equal preference in a request the first is sent.
 inline constexpr std::array kFormats{
     // Four bytes a pixel, and deflate's overhead for incompressible data.
     FormatSpec{"png", "image/png", "png", false, "\x89PNG\r\n\x1a\n", 4.5,

@@ -117,7 +117,7 @@ Mesh load(const scene::Model& model, const scene::Assets& assets, Diagnostics* f
     try {
         return io::decodeMesh(*bytes, source.path, heard);
     } catch (const Error& error) {
-        // Over a limit, no other form is meant.
+        // Files over a limit are refused, not replaced by the fallback.
         if (!source.fallback || error.code().rfind("mesh.", 0) != 0) throw;
         heard.push_back(diagnosticOf(
             Severity::warning,

@@ -124,7 +124,7 @@ class LabelReader {
     int line_ = 0;
     Role role_ = Role::none;
     std::vector<double> run_;      ///< numbers of one role in this line, or in a column
-    std::size_t columns_ = 0;      ///< so many of them are lines before this one
+    std::size_t columns_ = 0;      ///< number of them from earlier lines
     Role component_ = Role::none;  ///< of a number that is named alone: "x: 1"
     std::array<std::vector<double>, 6> loose_;  ///< by role: of a vertex that is not complete
 };

@@ -12,9 +12,9 @@
 namespace farol::generator::io {
 namespace {
 
-/// The lists of a layout, in order: P places, N normals, T texture coordinates, I indices, 8, 6 and
-/// 5 vertices of so many numbers: place, normal and coordinate, without the coordinate, without the
-/// normal.
+/// The lists of a layout, in order: P positions, N normals, T texture coordinates, I indices. 8, 6
+/// and 5 are interleaved vertices of that many numbers: position, normal and texture coordinate;
+/// without the texture coordinate; without the normal.
 constexpr std::string_view kLayouts[] = {"PNT", "PTN",  "PNTI", "PTNI", "PNI", "PTI", "PIN", "PINT",
                                          "PI",  "IPNT", "IPN",  "IP",   "8I",  "6I",  "5I",  "I8",
                                          "I6",  "I5",   "PN",   "PT",   "8",   "6",   "5",   "P"};
@@ -39,8 +39,8 @@ constexpr std::size_t widthOf(char list) {
     }
 }
 
-/// The numbers of a file as a layout looks at them: of text all are one kind, of binary files a
-/// word is a float or a whole number.
+/// The numbers of a file for a layout: those of a text are of one kind, a word of a binary file is
+/// a float or an integer.
 class Cells {
   public:
     explicit Cells(const std::vector<double>& values) : values_(&values), size_(values.size()) {}

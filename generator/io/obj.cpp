@@ -381,7 +381,7 @@ class Reader {
                                                    : uvs_[static_cast<std::size_t>(one[1])]);
                 if (withNormals_) {
                     mesh_.normals.push_back(normals_[static_cast<std::size_t>(one[2])]);
-                } else {  // the group goes by its first vertex
+                } else {  // the group is named by its first vertex
                     const auto group = static_cast<std::size_t>(one[2]);
                     if (group >= firstOfGroup.size()) firstOfGroup.resize(group + 1, kNone);
                     if (firstOfGroup[group] == kNone) firstOfGroup[group] = vertex;

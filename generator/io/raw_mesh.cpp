@@ -129,7 +129,7 @@ void splitByColor(RawMesh& raw, const std::vector<glm::u8vec4>& colors) {
             if (!raw.normals.empty()) split.normals.push_back(raw.normals[from]);
             if (!raw.uvs.empty()) split.uvs.push_back(raw.uvs[from]);
             split.colors.push_back(colors[i / 3]);
-            // The group goes by its first vertex.
+            // The group is named by its first vertex.
             std::uint32_t& group = groups[raw.smooth.empty() ? from : raw.smooth[from]];
             if (group == kNone) group = vertexOf[i];
             split.smooth.push_back(group);

@@ -169,7 +169,7 @@ RawMesh decodeThreeCounts(const MeshText& text) {
     return off ? decodeOff(text.bytes, text.file) : decodeCounted(*text.rows);
 }
 
-constexpr std::size_t kFirstOfRows = 8;  ///< of the table: it and those after it look at rows
+constexpr std::size_t kFirstOfRows = 8;  ///< index in the table of the first form that reads rows
 
 const std::vector<MeshForm>& formTable() {
     static const std::vector<MeshForm> made = {
@@ -257,7 +257,7 @@ const MeshForm* recogniseForm(MeshText& text) {
     return nullptr;
 }
 
-/// Whether the form is recognised by its numbers alone, so that another reading may be meant.
+/// True for a form that is recognised by its numbers alone, so that another form may fit, too.
 bool isLoose(const MeshForm& form) {
     const std::string_view name = form.name;
     return &form >= &formTable()[kFirstOfRows] || name == "OBJ from 0";

@@ -10,7 +10,7 @@
 
 namespace farol::generator::io {
 
-/// A mesh file as the forms look at it.
+/// A mesh file, prepared for the readers of all forms.
 struct MeshText {
     std::string_view bytes;  ///< after plainText
     const std::string& file;

@@ -92,7 +92,7 @@ ShapeEntry domeEntry() {
             [](const ShapeCall& call, const std::string&, scene::UvLayout) {
                 return dome(call.length(0), call.count(1), call.count(2));
             },
-        // A row of quads lacks half at the pole, which the base makes up for.
+        // The row at the pole has half the triangles; the base has the other half.
         .count = [](const ShapeCall& call,
                     const std::string&) { return 2 * call.count(1) * call.count(2); },
         .bound =

@@ -111,7 +111,7 @@ std::uint32_t addRing(Builder& builder, const Strip& strip, std::size_t j, std::
 Mesh revolution(const std::vector<glm::dvec3>& profile, std::size_t copies,
                 const std::string& fileName) {
     const std::size_t slices = copies - 1;
-    // Along the axis alone: away from it, the profile's radius is meant.
+    // The origin moves along the axis only: x is the profile's radius.
     const double origin = io::originOf(profile).y;
     std::vector<glm::dvec3> near = profile;
     for (glm::dvec3& point : near) point.y -= origin;

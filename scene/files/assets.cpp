@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t kMaxPath = 1024;
-/// Entries looked at when a folder is listed, so that a huge tree costs bounded time.
+/// Most entries visited when a folder is listed: bounds the time of a huge tree.
 constexpr int kMaxVisited = 100'000;
 
 struct Descriptor {
@@ -235,7 +235,7 @@ std::string FolderAssets::oddityOf(const std::string& path) const {
     struct stat facts {};
     if (root_.empty() || !isSafePath(path)) return "";
     const std::string plain = beneath(root_) + path;
-    // The folders on the way are below the root, too.
+    // The parent folder must be below the root, too.
     std::error_code failed;
     const fs::path parent = fs::canonical(fs::path(plain).parent_path(), failed);
     if (failed || (parent != root_ && !isInside(parent, root_))) return "";

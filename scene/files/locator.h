@@ -45,7 +45,7 @@ class Locator {
     /// How names are compared, in this order.
     enum class Reading { exact, folded, codePage };
     static constexpr int kReadings = 3;
-    /// The order in which places are looked at.
+    /// The search steps, in order.
     enum class Step { document, parent, suffix, baseName };
     struct Named {
         std::size_t index;  ///< into list()

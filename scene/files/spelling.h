@@ -17,8 +17,8 @@ std::string decomposed(std::string_view name);
 /// Returns one text for all names that differ only in case, Unicode form or percent-encoding.
 std::string folded(std::string_view name);
 
-/// Returns the names that may have been meant before it was read in a wrong code page (437, 850,
-/// 852, 1250, 1252 or UTF-8), by each pair of pages that fits; none for ASCII.
+/// Returns the possible names of a file whose name was decoded in a wrong code page (437, 850, 852,
+/// 1250, 1252 or UTF-8), by each pair of pages that fits; none for ASCII.
 std::vector<std::string> otherReadings(std::string_view name);
 
 }  // namespace farol::scene::spelling

@@ -20,8 +20,8 @@ class Findings {
     /// Drops all findings so far and reports one error in their place.
     void replaceBy(Message message, Location where);
 
-    /// Where elements are open too long or closed too often, drops the findings about things
-    /// in the wrong place: they stand where they were meant.
+    /// If elements are not closed, or closed twice, drops the findings about misplaced elements,
+    /// which are consequences.
     void dropFollowUps();
 
     bool failed() const { return failed_; }

@@ -32,7 +32,7 @@ class Busy : public std::runtime_error {
     int retryAfterS_;
 };
 
-/// Which frame of an orbiting client a picture is: only the newest of a session is worth drawing.
+/// The frame number of an image in a session of an orbiting client: older frames are dropped.
 struct Turn {
     std::string session;   ///< chosen by the client; empty: not one of a session
     std::int64_t seq = 0;  ///< grows from frame to frame

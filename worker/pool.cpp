@@ -156,7 +156,7 @@ Answer WorkerPool::askSlot(Slot& slot, const PackedJob& job) {
             limits.deadline = std::chrono::ceil<std::chrono::milliseconds>(end - Clock::now());
             Answer answer = slot.process->call(job, limits);
             if (answer.outcome == Outcome::memory) {
-                // A heap that was full once is not worth keeping.
+                // Replaces the process, whose heap was full.
                 drop(slot, "memory");
                 quarantine_.strike(job.identity, Quarantine::Cause::exhausted);
             } else {

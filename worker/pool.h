@@ -22,9 +22,9 @@ struct PoolOptions {
     int workers = 1;
     QueueLimits queue;
     WorkerOptions worker;
-    int spares = 1;  ///< processes kept ready to take a lost one's place
-    /// A process ends after a job that holds anything a client sent; there are at least as many
-    /// spares as workers then.
+    int spares = 1;  ///< processes kept ready to replace lost ones
+    /// Ends a process after each job with data that a client sent; keeps at least as many spares
+    /// as workers.
     bool isolatesUploads = false;
     int recycleAfter = 1'000;  ///< jobs a process does before it is replaced
     /// Processor time of a worker for one request; 0: twice the deadline, as two cores have.
@@ -32,14 +32,14 @@ struct PoolOptions {
     std::chrono::seconds quarantine{600};  ///< of requests, and of scenes, that end workers
 };
 
-/// Does all work in sandboxed processes. One that crashes, hangs or has done its share is
-/// replaced; the job it had gets Busy worker.crashed, worker.reply or busy.deadline, or Error
-/// limit.cpu, no other job notices. One whose worker was killed from outside is begun again, up to
+/// Runs all jobs in sandboxed processes. Replaces a process that crashes, hangs or has done
+/// recycleAfter jobs; its job gets Busy worker.crashed, worker.reply or busy.deadline, or Error
+/// limit.cpu, and no other job is affected. A job whose worker was killed from outside is run up to
 /// three times, then gets Busy worker.killed.
 class WorkerPool final : public Backend {
   public:
-    /// Starts the workers and waits until one can draw, or has reported why it cannot (which goes
-    /// to the log and is tried again). `log` is called until it is gone.
+    /// Starts the workers and waits until one can render or one has failed to start. Failures are
+    /// logged and retried. `log` is called until the pool is destroyed.
     WorkerPool(PoolOptions options, EventLog log);
     ~WorkerPool() override;
 
@@ -48,7 +48,7 @@ class WorkerPool final : public Backend {
     BackendFacts facts() const override;
     std::string version() const override;
 
-    /// Refuses new jobs (Busy), waits for those being worked on and ends the workers.
+    /// Refuses new jobs (Busy), waits for running jobs and ends the workers.
     void stop();
 
   protected:
@@ -67,7 +67,7 @@ class WorkerPool final : public Backend {
     void serveSlot(int index);
     bool ready(Slot& slot, std::chrono::milliseconds patience);
     void drop(Slot& slot, const std::string& reason);
-    /// Waits for a worker that does the job, and judges its answer.
+    /// Runs the job on a worker and judges its answer.
     Done<std::any> ask(PackedJob job, const Turn& turn);
     Answer askSlot(Slot& slot, const PackedJob& job);
     void excuse(Slot& slot, const WorkerLost& lost, const JobIdentity& identity);

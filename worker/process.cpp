@@ -42,8 +42,8 @@ bool isRaisedByFaults(int number) {
     return false;
 }
 
-/// posix_spawn takes a vfork's way: no lock of another thread is inherited, and the program is
-/// loaded anew.
+/// Starts a worker by posix_spawn, which works as vfork: inherits no lock of another thread, and
+/// loads the program again.
 pid_t spawn(const WorkerOptions& options, int socket) {
     std::vector<std::string> words = {"farol", "worker", "--memory",
                                       std::to_string(options.memoryBytes)};

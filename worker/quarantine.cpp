@@ -25,8 +25,8 @@ Quarantine::Closed Quarantine::closed(const JobIdentity& job, Clock::time_point 
     return {};
 }
 
-/// The entry of a key, made if need be: the oldest makes room for it. A strike of longer ago than
-/// the quarantine lasts does not count any more.
+/// Returns the entry of a key; adds it if necessary, and evicts the oldest if full. Clears strikes
+/// that are older than the quarantine's duration.
 template <typename Entry>
 Entry& Quarantine::entryOf(std::map<std::string, Entry>& entries, const std::string& key,
                            Clock::time_point now) {

@@ -123,7 +123,7 @@ void checkPicture(const render::Picture& picture, const ImageBounds& bounds) {
 void acceptImage(render::Picture& picture, const ImageBounds& bounds) {
     checkPicture(picture, bounds);
     require(image::hasSignature(picture.bytes, bounds.format), "the format of an image");
-    // A worker that was taken over must not choose a header of the answer.
+    // A compromised worker must not choose a header of the response.
     picture.contentType = image::contentType(bounds.format);
 }
 

@@ -4,7 +4,7 @@
 
 namespace farol::worker {
 
-/// Draws one picture of a scene.
+/// Renders one image of a scene.
 struct RenderTask : TaskTraits {
     static constexpr const char* kName = "render";
     static constexpr bool kIsShared = true;

@@ -25,7 +25,7 @@ class Catalogue {
         render::SceneReport
             report;  ///< without its elements: one for each copy is too much to keep
         Diagnostics errors;
-        /// When it is looked at again, where the errors may be of the moment.
+        /// Expiry, for errors that may be temporary.
         std::chrono::steady_clock::time_point until = std::chrono::steady_clock::time_point::max();
     };
 

@@ -41,14 +41,14 @@ void FolderWatch::giveUp(const std::string& why) {
     fault_ = why;
 }
 
-// A folder is watched before it is looked into: files created meanwhile are listed or noted.
+// Watches a folder before listing it: files created in between are listed or cause an event.
 void FolderWatch::watchAll() {
     std::vector<fs::path> folders{root_};
     for (std::size_t i = 0; i < folders.size(); ++i) {
         if (folders.size() > kMaxFolders)
             return giveUp("it has more than " + std::to_string(kMaxFolders) + " folders");
         if (::inotify_add_watch(fd_, folders[i].c_str(), kChanges) < 0) {
-            // Gone meanwhile, or not to be read by us, as its files then are not either.
+            // Removed in between, or unreadable for this process, as its files then are, too.
             if (errno == ENOENT || errno == ENOTDIR || errno == EACCES) continue;
             return giveUp(std::generic_category().message(errno));
         }

@@ -21,7 +21,7 @@ nlohmann::json linksOf(const ServedScene& scene, const std::string& basePath);
 
 /// ASCII, for headers; invalid bytes become U+FFFD.
 std::string asciiJson(const nlohmann::json& value);
-/// The value of X-Farol-Diagnostics: as many as a header may hold.
+/// Returns the value of X-Farol-Diagnostics, cut to the size of a header.
 std::string diagnosticsHeader(const Diagnostics& diagnostics);
 
 /// The document of a scene, in the gallery and at its address.

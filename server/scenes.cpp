@@ -54,7 +54,7 @@ std::shared_ptr<SceneFolder::Mounted> SceneFolder::mounted() const {
     const auto identity = scene::folderIdentity(root_);
     if (!identity) refuse("it does not exist");
     const std::lock_guard lock(mutex_);
-    // A link on the way may have changed while the folder is the same.
+    // A symbolic link in the path may have changed while the folder is the same.
     if (!mounted_ || mounted_->identity != *identity ||
         scene::folderIdentity(mounted_->files.root()) != identity)
         mounted_ = std::make_shared<Mounted>(root_, *identity);

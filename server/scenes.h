@@ -43,25 +43,25 @@ class SceneFolder {
     /// An empty `root` serves no scenes.
     explicit SceneFolder(std::string root);
 
-    /// All scenes in the order of their ids; at most Assets::kMaxListed files are looked at. A
-    /// document that is no file is among them, with its fault. Left out: the other documents of a
-    /// folder that has a scene.xml (they are its parts), and all of a folder that holds a file
-    /// unlisted.txt. find() knows them all the same.
+    /// Returns all scenes by id; reads at most Assets::kMaxListed files. A document that is no
+    /// file is among them, with its fault. Leaves out the other documents of a folder that has a
+    /// scene.xml (they are its parts), and all of a folder with a file unlisted.txt. find()
+    /// finds those, too.
     std::vector<ServedScene> list() const;
     std::optional<ServedScene> find(const std::string& id) const;
     /// Throws Busy busy.scenes where the folder cannot be read now.
     void check() const;
-    /// Why every request looks at the files; empty if they are watched.
+    /// Returns the reason why every request reads the folder; empty if it is watched.
     std::string watchFault() const;
-    /// The document's bytes; nothing if it went away meanwhile. Throws Error asset.unreadable where
-    /// it cannot be read, limit.bytes where it is larger than any document may be.
+    /// Returns the document's bytes; nothing if it was removed. Throws Error asset.unreadable if it
+    /// cannot be read, limit.bytes if it is larger than any document may be.
     std::optional<std::string> source(const ServedScene& scene) const;
     /// The files beside the document.
     std::shared_ptr<const scene::Assets> assets(const ServedScene& scene) const;
 
   private:
     struct Found {
-        std::uint64_t revision;  ///< of the folder, from before it was looked at
+        std::uint64_t revision;  ///< of the folder, taken before reading it
         ServedScene scene;
     };
     /// The folder as it is now: another one under the same path gets its own.

@@ -73,7 +73,7 @@ void Arrival::feed(std::string& in) {
         in.erase(0, body_->feed(in));
         sayContinue_ = false;  // it did not wait for "100 Continue"
     }
-    // A connection that waits holds no buffer.
+    // An idle connection has no buffer.
     if (in.empty()) std::string().swap(in);
 }
 

@@ -17,8 +17,8 @@ struct Authority {
 /// Parses "name", "name:80", "192.0.2.1" or "[2001:db8::1]:80". Nothing for anything else.
 std::optional<Authority> parseAuthority(std::string_view text);
 
-/// The client that an address stands for: the address, of an IPv6 address its first 64 bits, since
-/// one client has all of the rest.
+/// Returns the client of an address: an IPv4 address, or the first 64 bits of an IPv6 address,
+/// since one client usually has the whole /64.
 std::string clientOfAddress(const std::string& address);
 
 }  // namespace farol::server::http

@@ -28,7 +28,7 @@ std::string httpDate(std::time_t now) {
     return text;
 }
 
-// No header of ours can be split: control characters end a value.
+// Prevents header injection: cuts a value at its first control character.
 std::string headerValue(const std::string& value) {
     const auto end = std::find_if(value.begin(), value.end(), [](char c) {
         return (static_cast<unsigned char>(c) < 0x20 && c != '\t') || c == 0x7F;
@@ -36,7 +36,7 @@ std::string headerValue(const std::string& value) {
     return std::string(value.begin(), end);
 }
 
-/// The library reads the cleaned head from it, and its output goes to the link.
+/// Stream of the library: it reads the cleaned head, and writes to the link.
 class Exchange final : public httplib::Stream {
   public:
     Exchange(Link& link, std::string head) : link_(link), head_(std::move(head)) {}
@@ -55,7 +55,7 @@ class Exchange final : public httplib::Stream {
     // The peer's address is read when the socket is accepted, not here.
     void get_remote_ip_and_port(std::string& ip, int& port) const override { none(ip, port); }
     void get_local_ip_and_port(std::string& ip, int& port) const override { none(ip, port); }
-    /// Only compared with FD_SETSIZE by the library, which matters to select() and not to us.
+    /// The library only compares it with FD_SETSIZE, for select(), which is not used here.
     socket_t socket() const override { return 0; }
 
     // Newer releases of the library ask for these; in older ones they override nothing.
@@ -74,7 +74,7 @@ class Exchange final : public httplib::Stream {
     std::size_t taken_ = 0;
 };
 
-/// A body that has arrived, as far as it did.
+/// The body of a request as far as it has arrived.
 class Arrived final : public Body {
   public:
     explicit Arrived(Incoming& incoming) : incoming_(incoming) {}
@@ -101,8 +101,8 @@ std::string newRequestId() {
     return text;
 }
 
-/// The library's server without its sockets: it parses a head that head.cpp has checked and writes
-/// the answer; everything between is one Handler. It never sees a body.
+/// The library's server without its sockets: parses a head that head.cpp has checked and writes
+/// the response of the Handler. It never reads a body.
 class Connection::Parser final : public httplib::Server {
   public:
     explicit Parser(http::Handler& handler) : handler_(handler) {
@@ -154,13 +154,13 @@ class Connection::Parser final : public httplib::Server {
         isCut_ = incoming.bodyState != BodyReader::State::whole ||
                  (head.hasBody() && !head.mayHaveBody());
         keep_ = head.keepAlive && !isCut_ && !head.refusal;
-        // In place of a request that the library must not see it is shown a plain one.
+        // A refused request is replaced by a plain one: the library must not parse it.
         Exchange stream(link, !head.refusal ? std::move(head.cleaned)
                               : head.isHead ? "HEAD / HTTP/1.1\r\n\r\n"
                                             : "GET / HTTP/1.1\r\n\r\n");
         bool closed = false;
         const bool written = process(stream, closed);
-        // A body that others send, too, goes from where it is: the library would copy it.
+        // A shared body is sent directly, since the library would copy it.
         if (shared_ && !head.isHead) link.put(*shared_);
         shared_.reset();
         link.flush();
@@ -170,7 +170,7 @@ class Connection::Parser final : public httplib::Server {
     }
 
   private:
-    // Newer releases take the addresses of both ends as well.
+    // Newer releases have parameters for the addresses of both ends as well.
     template <typename Stream>
     bool process(Stream& stream, bool& closed) {
         const auto untouched = [](httplib::Request& request) { request.path = "/"; };
@@ -206,7 +206,7 @@ class Connection::Parser final : public httplib::Server {
     Link* link_ = nullptr;
     const std::atomic<bool>* isClosing_ = nullptr;
     Response last_;
-    std::shared_ptr<const std::string> shared_;  ///< the body of this answer
+    std::shared_ptr<const std::string> shared_;  ///< the body of this response
     bool answered_ = false, isCut_ = false, keep_ = true;
 };
 

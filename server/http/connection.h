@@ -9,28 +9,28 @@
 
 namespace farol::server::http {
 
-/// A request whose answer is on its way to the client.
+/// A request whose response is being sent.
 struct Answered {
     Request request;
     Response response;  ///< without its body
     Clock::time_point since;
     bool keep = false;   ///< the connection may be kept for the next request
-    bool isCut = false;  ///< more of this one may still come: to be taken, and left
+    bool isCut = false;  ///< more of the request may still arrive: read it and discard it
 };
 
-/// Unlike all before it in this process, and most likely in others.
+/// Returns an id that is unique in this process, and most likely among processes.
 std::string newRequestId();
 
-/// Answers one request after another: one object a thread. The HTTP library stays behind this
-/// header.
+/// Answers one request after another; not thread-safe. Hides the HTTP library from other
+/// headers.
 class Connection {
   public:
     explicit Connection(Handler& handler);
     ~Connection();
 
-    /// Has the handler answer and puts the answer on the link, which is sent as far as the client
-    /// takes it now. `isClosing` turns true when the response must announce that no other request
-    /// will be answered.
+    /// Calls the handler and sends its response as far as the socket accepts it now; the rest stays
+    /// pending in the link. While `isClosing` is true, responses announce the end of the
+    /// connection.
     Answered answer(Link& link, Incoming incoming, const std::atomic<bool>& isClosing);
 
   private:

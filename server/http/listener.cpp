@@ -151,7 +151,7 @@ bool Listener::isOver(Clock::time_point stoppedAt) {
                 idle.push_back(client.get());
     }
     for (Client* client : idle) {
-        // A request that has arrived, but was not looked at, is answered.
+        // A request that has arrived but was not read yet is answered.
         if (client->phase == Phase::idle && client->link.receive() == Link::Got::bytes)
             client->arrival.feed(client->link.in());
         client->arrival.state() == Arrival::State::whole ? activate(*client) : drop(*client);

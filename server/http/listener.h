@@ -17,12 +17,12 @@
 
 namespace farol::server::http {
 
-/// How long a client may take. All are wall-clock bounds on the whole step, not on one read.
+/// Timeouts of a client: wall-clock bounds on the whole step, not on one read.
 struct Timeouts {
     std::chrono::milliseconds head{10'000};  ///< from its first byte to its blank line
     std::chrono::milliseconds body{30'000};
-    std::chrono::milliseconds write{30'000};  ///< to take an answer
-    std::chrono::milliseconds linger{1'000};  ///< after an answer that ends the connection
+    std::chrono::milliseconds write{30'000};  ///< to read a response
+    std::chrono::milliseconds linger{1'000};  ///< after a response that ends the connection
     std::chrono::milliseconds grace{12'000};  ///< from stop() to the last byte
 };
 
@@ -39,12 +39,12 @@ struct ListenOptions {
     Timeouts timeouts;
 };
 
-/// Accepts connections, moves their bytes in one thread that never waits for a client, and gives
-/// whole requests to threads that handle them. So neither a client that is idle, nor one that
-/// sends slowly, nor one that does not read its answers holds a thread; the next request of a
-/// connection is handled when the answer before it has left. All queues are bounded by
-/// maxConnections, all buffers together by bufferBytes. When all places are in use, the client with
-/// the most connections without a request loses the one that has waited longest.
+/// Accepts connections. One thread, which never waits for a client, moves all bytes and passes
+/// complete requests to a pool of threads. So clients that are idle, send slowly or do not read
+/// their responses occupy no thread. The next request of a connection is handled after the
+/// response before it was sent. All queues are bounded by maxConnections, all buffers together by
+/// bufferBytes. At maxConnections, the client with the most connections without a request loses
+/// the one that has waited longest.
 class Listener {
   public:
     /// Binds and listens. Throws std::runtime_error with the reason.
@@ -55,15 +55,15 @@ class Listener {
 
     int port() const { return port_; }
     void start();
-    /// Every answer from here on is the last one of its connection.
+    /// Every response from here on is the last one of its connection.
     void drain() { closing_ = true; }
-    /// Takes no new connection, lets the requests that have begun end, their answers leave within
-    /// the grace, and closes all.
+    /// Accepts no new connection, handles the requests that have begun, sends their responses
+    /// within the grace, and closes all connections.
     void stop();
     Traffic traffic() const;
 
   private:
-    /// A thread has the connection while it is `active`, else the one that moves bytes.
+    /// A request thread owns the connection while it is `active`, else the I/O thread does.
     enum class Phase { idle, receiving, active, holding, sending, lingering };
     struct Client {
         Client(int fd, const Handler& handler, std::string address)
@@ -71,15 +71,15 @@ class Listener {
               arrival(handler),
               remoteAddress(std::move(address)),
               network(clientOfAddress(remoteAddress)) {}
-        /// No request of it is complete: closing it loses nothing that cannot be sent again.
+        /// True if no request of it is complete: the client can repeat it after a close.
         bool isWaiting() const;
         Link link;
         Arrival arrival;
         std::optional<Answered> answered;  ///< not reported yet
         const std::string remoteAddress;
-        const std::string network;  ///< for which its connections count
-        std::size_t held = 0;       ///< as counted in buffered_
-        std::size_t drained = 0;    ///< while lingering
+        const std::string network;  ///< key of its count in networks_
+        std::size_t held = 0;       ///< bytes of it in buffered_
+        std::size_t drained = 0;    ///< bytes read while lingering
         bool hasAsked = false;      ///< a request of it has been answered
         Phase phase = Phase::idle;
         Clock::time_point since, until;  ///< of the phase
@@ -124,7 +124,7 @@ class Listener {
     int port_ = 0;
     std::atomic<bool> closing_{false}, stopping_{false};
     std::atomic<std::size_t> buffered_{0};
-    mutable std::mutex mutex_;  ///< guards the members below, and Client's phase
+    mutable std::mutex mutex_;  ///< guards clients_ to networks_, and Client's phase
     std::condition_variable ready_;
     std::map<int, std::unique_ptr<Client>> clients_;
     std::deque<Client*> queue_;
@@ -133,7 +133,7 @@ class Listener {
     std::map<std::string, int, std::less<>> networks_;  ///< connections of each
     Clock::time_point swept_{}, acceptAgain_{};
     bool isAccepting_ = true;
-    int reads_ = 1;  ///< of one connection before others have their turn
+    int reads_ = 1;  ///< most of one connection in a round
     std::thread mover_;
     std::vector<std::thread> threads_;
 };

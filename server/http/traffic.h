@@ -10,8 +10,8 @@ struct Traffic {
     std::size_t bufferedBytes = 0;                          ///< in memory for clients now
     /// Closed since the start, or never taken, for this reason.
     long slowHead = 0, slowBody = 0, slowReader = 0, memory = 0, full = 0;
-    long clientFull = 0;  ///< one client has too many
-    long displaced = 0;   ///< waited longest, when another connection needed the place
+    long clientFull = 0;  ///< over connectionsPerClient
+    long displaced = 0;   ///< idle ones, closed for a new connection at maxConnections
 };
 
 }  // namespace farol::server::http

@@ -30,7 +30,7 @@ Problem problemOf(const Error& error);
 Problem problemOf(const worker::Busy& busy);
 Problem problemOf(int status, Message message);
 
-/// A problem that no Error stands for.
+/// A problem document that no Error describes.
 class ProblemException : public std::exception {
   public:
     explicit ProblemException(Problem problem) : problem_(std::move(problem)) {}
@@ -54,7 +54,7 @@ nlohmann::json toJson(const Diagnostics& diagnostics);
 /// `member`Total to the number of all.
 void setDiagnostics(nlohmann::json& object, const std::string& member, Diagnostics diagnostics);
 
-/// Those that a client should look at: without the infos.
+/// Returns the diagnostics without infos.
 Diagnostics notable(const Diagnostics& diagnostics);
 
 /// UTF-8 text; invalid bytes become U+FFFD instead of an exception.

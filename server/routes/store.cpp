@@ -32,7 +32,7 @@ http::Response postScene(Context& context, const Call& call) {
         readParameters(call.request.query, {false, true, {"public", "base"}, {}});
     const bool listed = wholeNumber("public", wanted.ownValue("public", "0"), 0, 1) == 1;
     Upload upload = takeUpload(context, call, wanted.ownValue("base"));
-    // Options are of a picture, not of a scene: they are looked at, and left.
+    // Options belong to an image, not to a scene: they are validated, but not stored.
     readParameters({}, {true, true, {}, {}}, upload.optionsJson);
     if (!upload.job.archive.empty())
         upload.bundle = std::make_shared<const scene::Bundle>(

@@ -1,4 +1,4 @@
-// The route that draws a round of pictures.
+// The route that renders a turntable.
 #include "worker/tasks/turntable.h"
 
 #include <algorithm>

@@ -46,7 +46,7 @@ class SceneStore {
         Entry entry;
         bool created = false;  ///< it was not there before
     };
-    /// Stores the bundle durably before it returns. The expiry of a bundle that is there already
+    /// Stores the bundle before it returns. The expiry of a bundle that is there already
     /// starts anew; `listed` is set and never cleared. A full store evicts the least recently
     /// requested scenes. Throws Error limit.store for a bundle that alone is larger than the
     /// store.

@@ -43,7 +43,7 @@ class File {
     File& operator=(const File&) = delete;
     int get() const { return descriptor_; }
     bool isOwned() const { return isOwned_; }
-    /// Returns whether all that was written has reached the system.
+    /// Returns whether the system accepted all written bytes.
     bool close();
 
   private:
@@ -51,9 +51,9 @@ class File {
     bool isOwned_;
 };
 
-/// An output written all or nothing: a temporary file beside it gets its name at commit(), or is
-/// removed. Devices, pipes and standard output are written directly. Functions throw OutputError
-/// with the system's reason.
+/// An output file, written atomically: commit() renames a temporary file beside it to its name; the
+/// destructor removes an uncommitted one. Devices, pipes and standard output are written directly.
+/// Functions throw OutputError with the system's reason.
 class OutputFile {
   public:
     explicit OutputFile(const std::string& path);

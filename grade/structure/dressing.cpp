@@ -39,7 +39,7 @@ Outline::Item& itemAt(Outline& outline, int item) {
     return outline.items[static_cast<std::size_t>(item)];
 }
 
-/// Replaces the mesh; one of other lengths stands in a group that makes up for them.
+/// Replaces the mesh; one of another size goes into a group that scales it back.
 void takeMesh(Outline& outline, int item, const Outline::Item& theirs,
               const glm::dmat4& mineFromTheirs) {
     Outline::Item& mine = itemAt(outline, item);
@@ -435,7 +435,7 @@ std::vector<Fix> otherDivisions(const SearchContext& context, const Outline& min
         if (a.mesh->id == b.mesh->id || b.model.source.kind == scene::ModelSource::Kind::shape ||
             !form.isOneForm() || !form.surface.isSame(textured))
             continue;
-        // Of another size it is a cause, if no transform makes up for it.
+        // A mesh of another size is a cause, unless a transform compensates it.
         if (form.mineFromTheirs != glm::dmat4(1.0) &&
             !isSamePlace(context.theirSide.poses.front()[static_cast<std::size_t>(a.node)],
                          poses[static_cast<std::size_t>(b.node)] * form.mineFromTheirs,

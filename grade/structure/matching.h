@@ -15,7 +15,7 @@ struct Side {
 };
 Side sideOf(const Outline& outline, const std::vector<double>& timesS);
 
-/// Which item of the submission stands for each of the reference's.
+/// The submission's item for each item of the reference.
 struct Matching {
     std::vector<int> mineOf;    ///< by the reference's item; -1: none
     std::vector<bool> isExtra;  ///< by the submission's item: no partner, and not removed

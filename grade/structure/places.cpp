@@ -49,11 +49,11 @@ class Search {
             const auto& mine = mine_.items[static_cast<std::size_t>(pair.mine)];
             const Likeness& form = context_.forms.compare(theirs, mine);
             pair.symmetry = symmetryOf(theirs);
-            // Another form may still stand where the reference has its own.
+            // Another form may still be at the reference's place.
             pair.mineFromTheirs = form.isOneForm() ? form.mineFromTheirs : glm::dmat4(1.0);
             for (const Poses& poses : context_.theirSide.poses)
                 pair.targets.push_back(poses[static_cast<std::size_t>(theirs.node)]);
-            // Of other lengths, and nothing in its transforms makes up for them: it stands right.
+            // Another size that no transform compensates: its place is right.
             if (pair.mineFromTheirs != glm::dmat4(1.0) && !stands(pair, side_.poses, mine_)) {
                 Pair own = pair;
                 own.mineFromTheirs = glm::dmat4(1.0);

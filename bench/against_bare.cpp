@@ -94,7 +94,7 @@ int main(int count, char** arguments) try {
                          render::place(prepared.scene, job.options.timeS, job.options.curves,
                                        *prepared.assets, meshes),
                          job.options, *prepared.assets, meshes,
-                         render::gl::createContext(render::gl::Backend::osmesa)->facts());
+                         render::gl::createContext(render::GlSource::automatic)->facts());
         std::vector<image::Image> textures;
         for (const render::TextureRef& ref : plan.textures) {
             if (ref.chess || ref.cube) throw std::runtime_error("the bare loop takes pictures");

@@ -41,11 +41,11 @@ Schedule schedule(const AnimationFlags& flags, const render::SceneReport& report
 }
 
 render::Picture renderAnimation(render::Job job, const Schedule& schedule, const std::string& path,
-                                Outputs& outputs) {
+                                Outputs& outputs, render::GlSource gl) {
     const bool files = framePath(path, 0) != path;
     if (!files && job.options.format != image::Format::png)
         throw UsageError(message<"usage/frames-format">());
-    render::Renderer renderer;
+    render::Renderer renderer(gl);
     const bool alpha = job.options.background == "transparent";
     image::ApngWriter animation(schedule.frames, schedule.fps, alpha);
     render::Picture last;

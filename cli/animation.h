@@ -30,6 +30,6 @@ Schedule schedule(const AnimationFlags& flags, const render::SceneReport& report
 /// it, one image a frame. Shows progress on stderr where that is a terminal. Returns the last
 /// image.
 render::Picture renderAnimation(render::Job job, const Schedule& schedule, const std::string& path,
-                                Outputs& outputs);
+                                Outputs& outputs, render::GlSource gl);
 
 }  // namespace farol::cli

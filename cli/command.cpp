@@ -6,6 +6,7 @@
 #include "cli/files.h"
 #include "cli/messages.h"
 #include "core/number.h"
+#include "core/text.h"
 
 namespace farol::cli {
 
@@ -25,6 +26,25 @@ int runGuarded(const std::function<int()>& work, Report& report) {
         report.fail(message<"internal/reason">("reason"_arg = uncut(error.what())));
         return kInternal;
     }
+}
+
+void addGlSource(CLI::App& command, render::GlSource& source) {
+    const auto take = [&source](const std::string& word) {
+        source = *render::kGlSourceWords.find(word);
+    };
+    const auto check = [](const std::string& word) {
+        return render::kGlSourceWords.find(word)
+                   ? std::string()
+                   : word + " is none of " + joined(render::kGlSourceWords.all(), ", ");
+    };
+    command
+        .add_option_function<std::string>(
+            "--gl", take,
+            "library that draws: OSMesa or EGL, by the processor, or EGL on a GPU; auto: OSMesa "
+            "where it is installed, else EGL")
+        ->check(check)
+        ->type_name(joined(render::kGlSourceWords.all(), "|"))
+        ->default_str("auto");
 }
 
 void takesNumber(CLI::Option* option, double min, double max) {

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "cli/report.h"
+#include "render/gl_source.h"
 
 /// The command line: one file a subcommand, each over the libraries.
 namespace farol::cli {
@@ -57,7 +58,10 @@ int runGuarded(const std::function<int()>& work, Report& report);
 /// range and the default to its help.
 void takesNumber(CLI::Option* option, double min, double max);
 
+/// Adds --gl.
+void addGlSource(CLI::App& command, render::GlSource& source);
+
 /// "farol 0.2.0", then the renderer's own line.
-std::string versionLine();
+std::string versionLine(render::GlSource source = render::GlSource::automatic);
 
 }  // namespace farol::cli

@@ -27,6 +27,7 @@ struct Flags {
     std::string overrides, groups, anonymous;
     bool hasFeedback = false;
     int jobs = 0;
+    render::GlSource gl = render::GlSource::automatic;
     double deadlineS = 60.0;
     std::size_t memoryMiB = 1024;
     bool printRubric = false;
@@ -82,6 +83,7 @@ worker::PoolOptions poolOptions(const Flags& flags) {
     pool.workers = flags.jobs > 0
                        ? flags.jobs
                        : std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, 64);
+    pool.worker.gl = flags.gl;
     pool.worker.memoryBytes = flags.memoryMiB << 20U;
     pool.queue.waiting = pool.workers + 8;
     pool.queue.wait = std::chrono::hours(24);
@@ -234,6 +236,7 @@ void addGrade(CLI::App& root, Action& action) {
     takesNumber(
         command->add_option("--deadline", flags->deadlineS, "longest time for one submission, s"),
         0.1, 3600);
+    addGlSource(*command, flags->gl);
     takesNumber(command->add_option("--worker-memory", flags->memoryMiB,
                                     "memory of a process, MiB; 0: no cap"),
                 0, 1 << 20);

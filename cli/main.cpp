@@ -60,7 +60,7 @@ int main(int argc, char** argv) {
     CLI::App app("Farol renders XML scenes without a screen.", "farol");
     app.footer(kFooter);
     app.require_subcommand(1);
-    app.set_version_flag("--version", versionLine);
+    app.set_version_flag("--version", [] { return versionLine(); });
     Report report;
     Action action;
     addRender(app, action);

@@ -24,6 +24,7 @@ struct Flags {
     AnimationFlags animation;
     ConfinementFlags confinement;
     bool strict = false, stats = false, verbose = false;
+    render::GlSource gl = render::GlSource::automatic;
     double deadlineS = 0.0;                                    ///< 0: none
     std::vector<std::pair<std::string, std::string>> picture;  ///< options in the order given
 };
@@ -76,11 +77,11 @@ int draw(const Flags& flags, const render::Job& job, Report& report, Outputs& ou
     render::Picture picture;
     if (flags.animation.isAnyGiven()) {
         const Schedule moments = schedule(flags.animation, render::inspect(job), job.options.timeS);
-        picture = renderAnimation(job, moments, flags.output, outputs);
+        picture = renderAnimation(job, moments, flags.output, outputs, flags.gl);
         report.set("frames", moments.frames);
         report.set("fps", moments.fps);
     } else {
-        picture = render::Renderer().render(job);
+        picture = render::Renderer(flags.gl).render(job);
         deadline.release();
         outputs.write(0, picture.bytes);
     }
@@ -149,6 +150,7 @@ void addRender(CLI::App& root, Action& action) {
     takesNumber(command->add_option("--deadline", flags->deadlineS,
                                     "ends with limit.deadline after that many s; 0: no deadline"),
                 0.0, 86'400.0);
+    addGlSource(*command, flags->gl);
     addConfinement(*command, flags->confinement);
     takesNumber(frames->group("Animation"), 1, 3600);
     takesNumber(fps->group("Animation"), 0.01, 1000.0);

@@ -10,18 +10,20 @@
 
 namespace farol::cli {
 
-std::string versionLine() {
-    return "farol " + server::projectVersion() + "\nrenderer: " + render::version();
+std::string versionLine(render::GlSource source) {
+    return "farol " + server::projectVersion() + "\nrenderer: " + render::version(source);
 }
 
 void addVersion(CLI::App& root, Action& action) {
     CLI::App* command = root.add_subcommand("version", "Says what was built and what draws");
-    command->callback([&action] {
-        action = [](Report& report) {
+    const auto source = std::make_shared<render::GlSource>();
+    addGlSource(*command, *source);
+    command->callback([&action, source] {
+        action = [source](Report& report) {
             // Closed in as the commands are, so that the layers are those that they get.
-            return confine({}, report, [&report](Outputs& outputs) {
+            return confine({}, report, [&report, source](Outputs& outputs) {
                 report.set("version", server::projectVersion());
-                report.set("renderer", render::version());
+                report.set("renderer", render::version(*source));
                 nlohmann::json layers = nlohmann::json::object();
                 for (const auto& [name, state] : outputs.layers()) layers[name] = state;
                 const std::string sandbox = joined(outputs.layers(), ", ", [](const auto& layer) {
@@ -29,7 +31,7 @@ void addVersion(CLI::App& root, Action& action) {
                 });
                 report.set("sandbox", layers);
                 if (!report.json())
-                    std::cout << versionLine() << "\nsandbox: " << sandbox << std::endl;
+                    std::cout << versionLine(*source) << "\nsandbox: " << sandbox << std::endl;
                 return kDone;
             });
         };

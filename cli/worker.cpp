@@ -13,6 +13,7 @@ void addWorker(CLI::App& root, Action& action) {
     struct WorkerFlags {
         worker::SandboxOptions sandbox;
         double maxCost = 0.0;
+        render::GlSource gl = render::GlSource::automatic;
         std::string probe;
         bool asCommandLine = false;
     };
@@ -20,6 +21,7 @@ void addWorker(CLI::App& root, Action& action) {
     command->add_option("--scenes", flags->sandbox.readable, "folder that may be read");
     command->add_option("--memory", flags->sandbox.memoryBytes, "private memory, bytes; 0: no cap");
     command->add_option("--max-cost", flags->maxCost, "of one job, core-seconds; 0: no bound");
+    addGlSource(*command, flags->gl);
     command->add_option("--self-test", flags->probe,
                         "a file to try the sandbox on: says what it lets through");
     command->add_flag("--command-line", flags->asCommandLine,
@@ -27,7 +29,7 @@ void addWorker(CLI::App& root, Action& action) {
     command->callback([&action, flags] {
         action = [flags](Report&) {
             return flags->probe.empty()
-                       ? worker::runWorker(flags->sandbox, flags->maxCost)
+                       ? worker::runWorker(flags->sandbox, flags->maxCost, flags->gl)
                        : worker::runSelfTest(flags->sandbox, flags->probe, flags->asCommandLine);
         };
     });

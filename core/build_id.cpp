@@ -11,9 +11,18 @@
 namespace farol {
 namespace {
 
+/// The build ids of loaded objects.
+struct Ids {
+    std::string_view prefix;  // of the file names of objects that count; empty: all count
+    std::string all;
+};
+
 /// Appends the NT_GNU_BUILD_ID note of a loaded object (elf(5)), if it has one.
 int appendBuildId(dl_phdr_info* info, std::size_t, void* out) {
-    auto& all = *static_cast<std::string*>(out);
+    auto& ids = *static_cast<Ids*>(out);
+    std::string_view file(info->dlpi_name == nullptr ? "" : info->dlpi_name);
+    file.remove_prefix(file.rfind('/') + 1);  // npos + 1 is 0
+    if (!file.starts_with(ids.prefix)) return 0;
     for (int i = 0; i < info->dlpi_phnum; ++i) {
         const ElfW(Phdr)& header = info->dlpi_phdr[i];
         if (header.p_type != PT_NOTE) continue;
@@ -28,7 +37,7 @@ int appendBuildId(dl_phdr_info* info, std::size_t, void* out) {
             if (at > end) break;
             if (note->n_type == NT_GNU_BUILD_ID &&
                 std::string_view(name, note->n_namesz) == std::string_view("GNU\0", 4))
-                all.append(content, note->n_descsz);
+                ids.all.append(content, note->n_descsz);
         }
     }
     return 0;
@@ -38,11 +47,20 @@ int appendBuildId(dl_phdr_info* info, std::size_t, void* out) {
 
 std::string buildId() {
     static const std::string id = [] {
-        std::string all;
-        dl_iterate_phdr(appendBuildId, &all);
-        return contentDigest(all).substr(0, 16);
+        Ids ids;
+        dl_iterate_phdr(appendBuildId, &ids);
+        return contentDigest(ids.all).substr(0, 16);
     }();
     return id;
+}
+
+std::string buildIdWith(std::initializer_list<std::string_view> libraries) {
+    Ids ids{"", buildId()};
+    for (const std::string_view library : libraries) {
+        ids.prefix = library;
+        dl_iterate_phdr(appendBuildId, &ids);
+    }
+    return contentDigest(ids.all).substr(0, 16);
 }
 
 }  // namespace farol

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <initializer_list>
 #include <string>
+#include <string_view>
 
 namespace farol {
 
@@ -8,5 +10,9 @@ namespace farol {
 /// libtiff ...) is another build: a digest of the GNU build ids of all of them. Images
 /// rendered under two values may differ.
 std::string buildId();
+
+/// The same with those loaded now whose file names begin with one of `libraries`, in the order of
+/// `libraries`.
+std::string buildIdWith(std::initializer_list<std::string_view> libraries);
 
 }  // namespace farol

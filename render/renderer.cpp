@@ -4,11 +4,11 @@
 #include <map>
 #include <set>
 
-#include "core/build_id.h"
 #include "core/stopwatch.h"
 #include "generator/registry.h"
 #include "image/format.h"
 #include "image/image_file.h"
+#include "render/gl/library.h"
 #include "render/gl/painter.h"
 #include "render/plan/camera.h"
 #include "render/plan/cost.h"
@@ -137,7 +137,9 @@ Diagnostics checkSkybox(const scene::Skybox& skybox, const scene::Assets& assets
 }  // namespace
 
 struct Renderer::State {
-    gl::Painter painter{gl::createContext(gl::Backend::osmesa)};
+    explicit State(GlSource source) : painter(gl::createContext(source)) {}
+
+    gl::Painter painter;
     MeshLibrary meshes{kMeshBytes};
     PreparedCache scenes{kScenes};
     CostBudget budget;
@@ -160,7 +162,7 @@ const Placed& Renderer::State::placed(const std::shared_ptr<const Prepared>& pre
     return places.put(key, {prepared, std::move(fresh)}, bytes).placed;
 }
 
-Renderer::Renderer() : state_(std::make_unique<State>()) {}
+Renderer::Renderer(GlSource source) : state_(std::make_unique<State>(source)) {}
 Renderer::~Renderer() = default;
 CostBudget& Renderer::budget() { return state_->budget; }
 const GlFacts& Renderer::gl() const { return state_->painter.facts(); }
@@ -284,9 +286,8 @@ SceneReport inspect(const Job& job) {
     return report;
 }
 
-std::string version() {
-    static const std::string text = std::string("farol ") + FAROL_VERSION + " build " + buildId();
-    return text;
+std::string version(GlSource source) {
+    return std::string("farol ") + FAROL_VERSION + " build " + gl::buildIdFor(source);
 }
 
 }  // namespace farol::render

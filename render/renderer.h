@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "image/image.h"
 #include "render/gl_facts.h"
+#include "render/gl_source.h"
 #include "render/options.h"
 #include "render/plan/report.h"
 #include "scene/files/assets.h"
@@ -79,11 +80,11 @@ struct SceneReport {
 };
 
 /// Draws scenes with its own GL context. Not shareable between threads: each thread makes
-/// its own. Caches change the time taken, never the bytes. Create throws std::runtime_error
-/// when there is no GL.
+/// its own. Caches change the time taken, never the bytes.
 class Renderer {
   public:
-    Renderer();
+    /// Throws std::runtime_error where this machine has no such GL.
+    explicit Renderer(GlSource source = GlSource::automatic);
     ~Renderer();
     Renderer(Renderer&&) noexcept;
     Renderer& operator=(Renderer&&) noexcept;
@@ -109,8 +110,8 @@ class Renderer {
 /// Reads and resolves without GL. Throws the errors of Renderer::render that need no GL.
 SceneReport inspect(const Job& job);
 
-/// "farol 0.2.0 build 0123456789abcdef": the version, and the build id of program and libraries
-/// (build_id.h), for /version and ETags.
-std::string version();
+/// "farol 0.2.0 build 0123456789abcdef": the version, and the build id of the program and of the
+/// libraries that draw, for /version and ETags. Loads the libraries of the source.
+std::string version(GlSource source = GlSource::automatic);
 
 }  // namespace farol::render

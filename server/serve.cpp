@@ -45,6 +45,11 @@ void checkOptions(const ServeOptions& options) {
             message<"option.range/words">("name"_arg = "isolate", "value"_arg = options.isolate,
                                           "known"_arg = "none or uploads"),
             {}, "isolate");
+    if (!render::kGlSourceWords.find(options.gl))
+        throw Error(
+            message<"option.range/words">("name"_arg = "gl", "value"_arg = options.gl,
+                                          "known"_arg = joined(render::kGlSourceWords.all(), ", ")),
+            {}, "gl");
     range("worker-memory", static_cast<long>(options.workerMemoryMiB), 0, 1L << 20);
     range("queue", options.queue.waiting, 0, 10'000);
     range("max-body", static_cast<long>(options.maxBodyBytes), 1, 1L << 30);
@@ -163,6 +168,7 @@ int serve(const ServeOptions& options) {
     const std::chrono::duration<double> deadline = options.queue.deadline;
     pool.worker.maxCost = options.maxCost > 0 ? options.maxCost : kDeadlines * deadline.count();
     pool.quarantine = std::chrono::ceil<std::chrono::seconds>(options.quarantine);
+    pool.worker.gl = *render::kGlSourceWords.find(options.gl);
     pool.worker.memoryBytes = options.workerMemoryMiB << 20U;
     if (!options.scenesDir.empty())
         pool.worker.scenesDir = std::filesystem::absolute(options.scenesDir).string();

@@ -15,6 +15,7 @@ struct ServeOptions {
     int workers = 0;                      ///< processes that draw, 1..64; 0: one a core, at most 8
     int spares = 1;                       ///< processes kept ready to take a lost one's place
     int recycleAfter = 1'000;             ///< jobs a process does before it is replaced
+    std::string gl = "auto";              ///< a word of render::kGlSourceWords
     std::string isolate = "none";         ///< uploads: a process ends after each job of one
     std::size_t workerMemoryMiB = 2'048;  ///< a process may take; 0: no cap
     std::chrono::milliseconds cpu{0};     ///< of a worker for one request; 0: twice the deadline

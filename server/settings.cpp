@@ -1,6 +1,8 @@
 #include "server/settings.h"
 
 #include "core/number.h"
+#include "core/text.h"
+#include "render/gl_source.h"
 
 namespace farol::server {
 namespace {
@@ -36,6 +38,11 @@ std::vector<Setting> makeSettings() {
                FIELD(recycleAfter)),
         number("worker-memory", "memory of a process, MiB; 0: no cap", 0, 1 << 20,
                FIELD(workerMemoryMiB)),
+        text("gl",
+             "library that draws: OSMesa or EGL, by the processor, or EGL on a GPU; auto: OSMesa "
+             "where it is installed, else EGL",
+             joined(render::kGlSourceWords.all(), "|"), FIELD(gl),
+             {"auto", "osmesa", "egl", "egl:gpu"}),
         text("isolate", "uploads: a process ends after each job of an upload; none: it goes on",
              "none|uploads", FIELD(isolate), {"none", "uploads"}),
         number("quarantine",

@@ -51,7 +51,8 @@ WorkerPool::WorkerPool(PoolOptions options, EventLog log)
                    changed_.notify_all();
                }),
       queue_(withSlack(options_.queue)),
-      quarantine_(options_.quarantine) {
+      quarantine_(options_.quarantine),
+      version_(render::version(options_.worker.gl)) {
     spawner_.begin(options_.workers);
     for (int i = 0; i < options_.workers; ++i) threads_.emplace_back([this, i] { serveSlot(i); });
     std::unique_lock lock(mutex_);
@@ -322,6 +323,6 @@ BackendFacts WorkerPool::facts() const {
     return facts_;
 }
 
-std::string WorkerPool::version() const { return render::version(); }
+std::string WorkerPool::version() const { return version_; }
 
 }  // namespace farol::worker

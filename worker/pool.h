@@ -91,6 +91,7 @@ class WorkerPool final : public Backend {
     int ready_ = 0;  ///< slots with a process
     std::map<std::string, Shared> inFlight_;
     std::atomic<long> coalesced_{0}, retried_{0};
+    const std::string version_;
     std::vector<std::thread> threads_;
 };
 

@@ -45,8 +45,9 @@ bool isRaisedByFaults(int number) {
 /// Starts a worker by posix_spawn, which works as vfork: inherits no lock of another thread, and
 /// loads the program again.
 pid_t spawn(const WorkerOptions& options, int socket) {
-    std::vector<std::string> words = {"farol", "worker", "--memory",
-                                      std::to_string(options.memoryBytes)};
+    std::vector<std::string> words = {"farol",    "worker",
+                                      "--memory", std::to_string(options.memoryBytes),
+                                      "--gl",     std::string(render::kGlSourceWords[options.gl])};
     if (options.maxCost > 0.0)
         words.insert(words.end(), {"--max-cost", formatNumber(options.maxCost)});
     if (!options.scenesDir.empty()) words.insert(words.end(), {"--scenes", options.scenesDir});

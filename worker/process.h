@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "render/gl_source.h"
 #include "scene/files/assets.h"
 #include "worker/channel.h"
 #include "worker/hello.h"
@@ -43,8 +44,9 @@ struct WorkerOptions {
     std::string program = "/proc/self/exe";
     std::string scenesDir;        ///< the folder that workers may read; empty: none
     std::size_t memoryBytes = 0;  ///< private memory; 0: no cap
-    double maxCost = 0.0;         ///< core-seconds of one job (render/plan/cost.h); 0: no bound
-    int said = 2;                 ///< descriptor that they print to
+    render::GlSource gl = render::GlSource::automatic;
+    double maxCost = 0.0;  ///< core-seconds of one job (render/plan/cost.h); 0: no bound
+    int said = 2;          ///< descriptor that they print to
     std::chrono::milliseconds start{30'000};  ///< to be ready to draw
 };
 

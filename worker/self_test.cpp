@@ -90,7 +90,7 @@ int runSelfTest(const SandboxOptions& options, const std::string& probe, bool as
         layers = closeCommandLine(options);
     else
         enterSandbox(options, layers);
-    WorkerState state(0.0);
+    WorkerState state(0.0, render::GlSource::automatic);
     warmUp(state.renderer);
     if (!asCommandLine) closeSandbox(options, layers);
     for (const auto& [name, layer] : layers) said["layers"][name] = layer;

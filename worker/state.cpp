@@ -14,7 +14,8 @@ PackedRubric packRubric(const grade::Rubric& rubric) {
     return {std::move(json), std::move(digest)};
 }
 
-WorkerState::WorkerState(double maxCoreSeconds) : maxCost(maxCoreSeconds), rubrics_(kMaxRubrics) {}
+WorkerState::WorkerState(double maxCoreSeconds, render::GlSource source)
+    : renderer(source), maxCost(maxCoreSeconds), rubrics_(kMaxRubrics) {}
 
 const grade::Rubric& WorkerState::rubric(const PackedRubric& packed) {
     if (const grade::Rubric* known = rubrics_.find(packed.digest)) return *known;

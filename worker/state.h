@@ -20,7 +20,7 @@ PackedRubric packRubric(const grade::Rubric& rubric);
 struct WorkerState {
     /// `maxCost`: core-seconds that all frames of a job may cost together (render/plan/cost.h); 0:
     /// no bound. Throws std::runtime_error where there is no GL.
-    explicit WorkerState(double maxCost);
+    WorkerState(double maxCost, render::GlSource source);
 
     const grade::Rubric& rubric(const PackedRubric& packed);
 

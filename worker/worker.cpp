@@ -13,7 +13,7 @@
 
 namespace farol::worker {
 
-int runWorker(const SandboxOptions& options, double maxCost) {
+int runWorker(const SandboxOptions& options, double maxCost, render::GlSource source) {
     // ^C and a service manager's SIGTERM reach the whole group; the parent decides when we end.
     for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) signal(number, SIG_IGN);
     Channel channel(kSocket);
@@ -21,7 +21,7 @@ int runWorker(const SandboxOptions& options, double maxCost) {
     enterSandbox(options, hello.sandbox);
     std::optional<WorkerState> state;
     try {
-        state.emplace(maxCost);
+        state.emplace(maxCost, source);
         warmUp(state->renderer);
         hello.gl = state->renderer.gl().description();
     } catch (const std::exception& fault) {

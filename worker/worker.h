@@ -1,13 +1,14 @@
 #pragma once
 
+#include "render/gl_source.h"
 #include "worker/sandbox.h"
 
 /// The program as a worker: `farol worker`, started by the pool only.
 namespace farol::worker {
 
-/// Serves jobs over kSocket until the other end closes it. Returns the exit code. `maxCost` as in
-/// WorkerState.
-int runWorker(const SandboxOptions& options, double maxCost);
+/// Serves jobs over kSocket until the other end closes it. Returns the exit code. `maxCost` and
+/// `source` as in WorkerState.
+int runWorker(const SandboxOptions& options, double maxCost, render::GlSource source);
 
 /// Closes itself in as a worker does, or as the command line, tries forbidden actions, and prints a
 /// JSON object with the outcome of each to stdout: the name of the error, or "done". `probe` is a

@@ -6,7 +6,7 @@
 
 namespace farol::render::gl {
 
-Api loadApi(ProcLoader loader) {
+Api loadApi(GetProcAddress* loader) {
     Api api;
 #define FAROL_GL_LOAD(name, type)                          \
     api.name = reinterpret_cast<type>(loader("gl" #name)); \

@@ -93,7 +93,9 @@ struct Api {
 #undef FAROL_GL_MEMBER
 };
 
-using ProcLoader = void (*(*)(const char* name))();
+/// Finds a function of the current context by its name; null where there is none.
+using GlFunction = void();
+using GetProcAddress = GlFunction*(const char* name);
 
 /// Drops errors that an earlier job left pending.
 void clearErrors(const Api& api);
@@ -103,6 +105,6 @@ void clearErrors(const Api& api);
 void throwOnError(const Api& api, const char* step);
 
 /// Fills the table. Throws std::runtime_error that names the first entry point missing.
-Api loadApi(ProcLoader loader);
+Api loadApi(GetProcAddress* loader);
 
 }  // namespace farol::render::gl

@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "render/gl/egl_context.h"
+#include "render/gl/library.h"
 #include "render/gl/objects.h"
 #include "render/gl/osmesa_context.h"
 
@@ -87,15 +89,18 @@ GlFacts askFacts(const Api& api) {
     return facts;
 }
 
-std::unique_ptr<Context> createContext(Backend backend) {
-    switch (backend) {
-        case Backend::osmesa:
+std::unique_ptr<Context> createContext(GlSource source) {
+    switch (resolveSource(source)) {
+        case GlSource::osmesa:
             return createOsMesaContext();
-        case Backend::egl:
-            throw std::runtime_error(
-                "GL backend \"egl\" is not part of this build; use \"osmesa\"");
+        case GlSource::egl:
+            return createEglContext(false);
+        case GlSource::eglGpu:
+            return createEglContext(true);
+        case GlSource::automatic:
+            break;
     }
-    throw std::logic_error("no such GL backend");
+    throw std::logic_error("no such GL source");
 }
 
 }  // namespace farol::render::gl

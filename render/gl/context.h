@@ -4,14 +4,9 @@
 
 #include "render/gl/api.h"
 #include "render/gl_facts.h"
+#include "render/gl_source.h"
 
 namespace farol::render::gl {
-
-/// Source of a context.
-enum class Backend {
-    osmesa,  ///< in memory, drawn by the processor
-    egl      ///< surfaceless; Mesa 25.1 dropped OSMesa
-};
 
 /// A GL 4.5 core context without a window.
 class Context {
@@ -23,9 +18,9 @@ class Context {
     virtual const GlFacts& facts() const = 0;
 };
 
-/// Creates a context and makes it current. Throws std::runtime_error, which names the backend,
-/// where this build or this machine has none.
-std::unique_ptr<Context> createContext(Backend backend);
+/// Creates a context and makes it current. Throws std::runtime_error, which names the source, where
+/// this machine has none.
+std::unique_ptr<Context> createContext(GlSource source);
 
 /// Asks the current context. Leaves nothing bound.
 GlFacts askFacts(const Api& api);

@@ -5,10 +5,9 @@
 
 #include "image/format.h"
 #include "image/image_file.h"
+#include "render/gl/api.h"
+#include "render/gl/library.h"
 #include "render/renderer.h"
-
-// The GL that the renderer's context, current in this thread, belongs to.
-extern "C" void (*OSMesaGetProcAddress(const char* name))();
 
 using namespace farol;
 using namespace std::string_literals;
@@ -136,7 +135,14 @@ TEST_CASE("a failed job, and errors that it leaves in the GL, do not fail the ne
     CHECK_THROWS_AS(renderer.render(textured("cut.ppm", "P6\n65536 1\n255\nab")), Error);
     CHECK(renderer.render(good).bytes == expected);
     using Enable = void (*)(unsigned);
-    const auto enable = reinterpret_cast<Enable>(OSMesaGetProcAddress("glEnable"));
+    // Of the GL that the renderer's context, current in this thread, belongs to.
+    const bool isOsMesa =
+        render::gl::resolveSource(render::GlSource::automatic) == render::GlSource::osmesa;
+    const render::gl::Library library(isOsMesa ? render::gl::kOsMesaLibrary
+                                               : render::gl::kEglLibrary);
+    const auto find = library.function<render::gl::GetProcAddress>(isOsMesa ? "OSMesaGetProcAddress"
+                                                                            : "eglGetProcAddress");
+    const auto enable = reinterpret_cast<Enable>(find("glEnable"));
     REQUIRE(enable != nullptr);
     enable(0xFFFF);  // GL_INVALID_ENUM is pending
     constexpr unsigned kScissorTest = 0x0C11;

@@ -23,8 +23,8 @@ void readWholePng(std::string_view bytes, bool wantsPixels, Decoded& out) {
     readPng(bytes, wantsPixels, out);
 }
 
-/// The decoder for a file, or null. No other format is read: each is a way in for a stranger's
-/// bytes.
+/// Returns the decoder for a file, or null. Other formats are not read: each decoder is attack
+/// surface.
 const FileFormat* recognise(std::string_view bytes, const std::string& name) {
     using namespace std::string_view_literals;
     static constexpr FileFormat kPng{"PNG", readWholePng}, kJpeg{"JPEG", readJpeg},
@@ -50,8 +50,8 @@ Error tooLarge(const std::string& name, const std::string& size, const Location&
                  where);
 }
 
-/// The one place where a file becomes samples: size, channels and sample count are checked here for
-/// every decoder.
+/// Decodes a file by any decoder; the only place that checks size, channels and sample count of
+/// their output.
 Decoded readFile(std::string_view bytes, const std::string& name, const Location& where,
                  bool wantsPixels) {
     const auto unreadable = [&](const std::string& why) {

@@ -110,7 +110,7 @@ std::vector<Image> buildMipmaps(const Image& base) {
     }
     while (level.width > 1 || level.height > 1) {
         if (even && levels.empty()) {
-            // Straight from the picture: twice its size in memory is saved.
+            // Reads the base image directly, which saves twice its size in memory.
             level = Fixed{base.width / 2, base.height / 2, {}};
             level.values.resize(base.pixels.size() / 4);
             halveEven(base.pixels.data(), 256, level);

@@ -2,8 +2,8 @@
 
 #include <string_view>
 
-/// The module that holds OpenImageIO: its 250 libraries take 0.25 s of CPU time to load, so it is
-/// loaded when the first file comes that needs it.
+/// The module that links OpenImageIO: its 250 libraries take 0.25 s of CPU time to load, so it is
+/// loaded for the first file that needs it.
 namespace farol::image {
 
 /// An image whose head has been read, for the module to decode.
@@ -19,7 +19,7 @@ struct ModuleRequest {
     void* user;
 };
 
-/// Decodes every pixel once, in memory that holds nothing from before the call. Throws
+/// Decodes every pixel once, in memory without data from earlier calls. Throws
 /// std::runtime_error with the reason, also where the module or a library that it needs is not
 /// installed.
 void readByModule(const ModuleRequest& request);
@@ -30,7 +30,7 @@ const char* moduleFile();
 /// The module's one function, by this name. Returns null, or why the file is not decoded: a text
 /// that lasts until the next call. One call at a time.
 using ModuleRead = const char* (*)(const ModuleRequest& request);
-/// Its reason where memory ran out.
+/// The reason that it returns if memory ran out.
 inline constexpr const char* kModuleOutOfMemory = "out of memory";
 inline constexpr const char* kModuleRead = "farol_read_image";
 

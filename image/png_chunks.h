@@ -18,8 +18,8 @@ void finishChunk(std::string& out, std::size_t begin);
 
 /// Signature and IHDR, 8 bits a channel; channels 3 (RGB) or 4 (RGBA).
 void appendHeader(std::string& out, int width, int height, int channels);
-/// The picture's rows, filtered and deflated, without a chunk round them. Alpha is left out when
-/// channels is 3.
+/// Returns the image's rows, filtered and deflated, without a chunk around them. Leaves out alpha
+/// if `channels` is 3.
 void appendPixels(std::string& out, const Image& image, int channels);
 
 }  // namespace farol::image::png

@@ -17,7 +17,7 @@ namespace farol::worker {
 /// Bytes that every reply may have besides its images and files: numbers, diagnostics, titles.
 inline constexpr std::uint64_t kBaseBytes = std::uint64_t{4} << 20U;
 inline constexpr std::size_t kMaxDiagnostics = 2'200;  ///< scene/read/findings.cpp keeps 2,000
-/// Entries of the lists that diagnostics are: themselves and their messages' arguments.
+/// Most list entries of diagnostics: themselves and their messages' arguments.
 inline constexpr std::size_t kMaxDiagnosticEntries = kMaxDiagnostics * (1 + kMaxArguments);
 
 /// The bounds that every reply has.
@@ -32,7 +32,7 @@ void checkDiagnostics(const Diagnostics& diagnostics);
 /// Checks a refusal: a worker may report faults of the input, but no codes of the HTTP side.
 void checkRefusal(const Diagnostics& diagnostics);
 void checkFaultMessage(const std::string& message);
-/// An object within the limits.
+/// Checks a JSON object against the limits.
 void checkJson(const std::string& text, const JsonLimits& limits, const char* what);
 
 /// Bounds of an image that was requested with these options.
@@ -45,7 +45,7 @@ struct ImageBounds : ReplyLimits {
 ImageBounds imageBoundsOf(const render::PictureOptions& options);
 std::uint64_t pixelsOf(const ImageBounds& bounds);
 
-/// The largest encoded image of so many pixels.
+/// Returns the bytes of the largest encoded image of this many pixels.
 std::uint64_t maxImageBytes(image::Format format, std::uint64_t pixels);
 
 /// All but the format of the bytes and the content type.

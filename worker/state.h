@@ -9,7 +9,7 @@
 
 namespace farol::worker {
 
-/// A rubric that was read, as it travels. Workers read it again once for each digest.
+/// A serialised rubric. Workers parse it once for each digest.
 struct PackedRubric {
     std::string json;    ///< grade::writeRubric
     std::string digest;  ///< of `json`

@@ -11,13 +11,13 @@ struct WorkerState;
 
 /// Facts about a job that the parent has before it runs.
 struct JobFacts {
-    /// Names document and files: a worker that has them warm is found by it, and a quarantine
-    /// closes it. Empty: the job has no scene.
+    /// Identifies document and files: selects a worker that has them cached, and is the key of
+    /// the quarantine. Empty: the job has no scene.
     std::string scene;
-    bool isUpload = true;  ///< holds something that a client sent, beside options
+    bool isUpload = true;  ///< has data that a client sent, beside options
 };
 
-/// How much of a reply is received at all.
+/// Bounds of a reply; a larger one is not received.
 struct ReplyLimits {
     std::uint64_t bytes = 0;    ///< of the whole reply
     std::uint64_t entries = 0;  ///< of all its lists together

@@ -17,9 +17,9 @@
 #include "scene/files/assets.h"
 #include "worker/fields.h"
 
-/// Values as bytes between two processes of the same program on the same machine: numbers as they
-/// are in memory, strings and lists with their length before them, structures member by member. An
-/// enumeration that travels has a function `lastOf`, found by its type.
+/// Serialises values between two processes of the same program on the same machine: numbers as in
+/// memory, strings and lists with their length before them, structures member by member. A
+/// serialised enumeration has a function `lastOf`, found by argument-dependent lookup.
 namespace farol::worker {
 
 /// Thrown for a message that the other side would not send: it is broken or hijacked.
@@ -49,7 +49,7 @@ inline constexpr bool kIsVector = false;
 template <int N, typename T, glm::qualifier Q>
 inline constexpr bool kIsVector<glm::vec<N, T, Q>> = true;
 
-/// The files beside a document as they travel: a served folder by its path, which the worker may
+/// The serialised files beside a document: a served folder by its path, which the worker may
 /// read, a bundle by its files.
 struct TravellingAssets {
     bool isFolder = false;

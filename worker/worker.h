@@ -10,9 +10,9 @@ namespace farol::worker {
 /// `source` as in WorkerState.
 int runWorker(const SandboxOptions& options, double maxCost, render::GlSource source);
 
-/// Closes itself in as a worker does, or as the command line, tries forbidden actions, and prints a
-/// JSON object with the outcome of each to stdout: the name of the error, or "done". `probe` is a
-/// file of the test's: readable before, its folder writable.
+/// Enters the sandbox of a worker, or of the command line, tries forbidden actions, and prints a
+/// JSON object with the outcome of each to stdout: the name of the error, or "done". `probe`: a
+/// file of the test, readable before, in a writable folder.
 int runSelfTest(const SandboxOptions& options, const std::string& probe, bool asCommandLine);
 
 }  // namespace farol::worker

@@ -12,7 +12,7 @@
 namespace farol::worker {
 namespace {
 
-constexpr std::size_t kMaxLine = 500;  // bytes of a line that are worth a log's place
+constexpr std::size_t kMaxLine = 500;  // bytes of a line that are logged
 constexpr int kPipeBytes = 256 << 10;  // a sanitizer's report fits
 constexpr int kLinesASecond = 100;     // a log is not a dump
 // Reading more would let a worker that prints without end occupy a core of the parent.
@@ -32,7 +32,7 @@ WorkerOutput::WorkerOutput(Sink sink) : sink_(std::move(sink)) {
 }
 
 WorkerOutput::~WorkerOutput() {
-    // The workers have ended by now, so ours is the last end that writes.
+    // The workers have ended, so that this is the last open write end.
     close(writeFd_);
     thread_.join();
     close(readFd_);

@@ -6,8 +6,8 @@
 
 namespace farol::worker {
 
-/// The output of worker processes and their libraries, as lines for the log, so that a decoder's
-/// complaint does not stand between the lines of JSON. Drops excess lines of a worker that prints
+/// Collects the output of worker processes and their libraries as lines for the log, which keeps
+/// messages of decoders out of the lines of JSON. Drops excess lines of a worker that prints
 /// faster than it is read: a worker never waits for the log.
 class WorkerOutput {
   public:

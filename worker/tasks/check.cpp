@@ -46,7 +46,7 @@ render::Job canaryJob() {
 
 bool isColor(const image::Image& image, int x, int y, int r, int g, int b) {
     const std::uint8_t* pixel = &image.pixels[static_cast<std::size_t>(y * image.width + x) * 4];
-    // One step for the rounding of colours on their way through float.
+    // One step for the rounding of colours in float.
     return std::abs(pixel[0] - r) <= 1 && std::abs(pixel[1] - g) <= 1 &&
            std::abs(pixel[2] - b) <= 1;
 }

@@ -6,8 +6,8 @@
 
 namespace farol::worker {
 
-/// Draws a tiny known scene and checks its pixels: whether a worker works. Throws a problem
-/// as std::runtime_error.
+/// Renders a tiny known scene and checks its pixels, as a health check of a worker. Throws
+/// std::runtime_error if they are wrong.
 struct CheckTask : TaskTraits {
     static constexpr const char* kName = "check";
     static constexpr bool kIsExempt = true;

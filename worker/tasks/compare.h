@@ -5,14 +5,14 @@
 
 namespace farol::worker {
 
-/// Compares two pictures, or scenes that are drawn first. A scene is drawn by its job's options;
-/// where they give no size and the other is a picture, it is as large.
+/// Compares two images, or scenes that are rendered first. A scene is rendered by its job's
+/// options; if they give no size and the other is an image, at that image's size.
 struct CompareTask : TaskTraits {
     static constexpr const char* kName = "compare";
     struct Request {
         grade::Subject first, second;
         std::string crop, mask;  ///< as in docs/reference/http.md
-        bool pictures = false;   ///< are wanted too
+        bool pictures = false;   ///< returns `diff` and `heat`, too
     };
     struct Reply {
         std::string json;        ///< grade::toJson

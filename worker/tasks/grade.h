@@ -8,7 +8,7 @@
 
 namespace farol::worker {
 
-/// Grades a submission. Any worker may take it: all have the reference warm after their first.
+/// Grades a submission. Any worker may run it: each caches the reference after its first job.
 struct GradeTask : TaskTraits {
     static constexpr const char* kName = "grade";
     struct Request {

@@ -6,7 +6,7 @@ namespace farol::worker {
 
 inline constexpr const char* kFrameBoundary = "farol-frame";
 
-/// Draws a round of pictures: the eye goes about the target once, from the job's own camera on.
+/// Renders a turntable: the eye moves once around the target, starting at the job's camera.
 struct TurntableTask : TaskTraits {
     static constexpr const char* kName = "turntable";
     enum class Form {

@@ -14,7 +14,7 @@ namespace farol::server {
 namespace {
 
 constexpr std::size_t kMaxKnown = 2'000;
-// How long the row of a scene that ended its worker is kept before the scene is tried again.
+// Expiry of the facts about a scene whose worker ended or failed: then it is inspected again.
 constexpr std::chrono::seconds kKeepFailure{60};
 
 void forgetElements(render::SceneReport& report) {
@@ -84,7 +84,7 @@ std::shared_ptr<const Catalogue::Known> Catalogue::known(const ServedScene& scen
     return fresh;
 }
 
-// A scene that cannot be read, or ends its worker, is that scene's row alone.
+// Errors of a scene, and of its worker, are stored as facts: they do not affect other scenes.
 void Catalogue::inspectInto(Known& facts, const ServedScene& scene) const {
     const auto failed = [&](Diagnostic fault) {
         fault.where.file = scene.path;

@@ -25,7 +25,7 @@ class ClientBytes {
     std::map<std::string, std::size_t> bytes_;
 };
 
-/// A body that counts among its client's from when it is read until the request is answered.
+/// A body whose bytes count for its client from the read until the request is answered.
 class CountedBody final : public http::Body {
   public:
     CountedBody(http::Body& body, ClientBytes& all, std::string client)

@@ -13,7 +13,7 @@
 namespace farol::server {
 namespace {
 
-// Standard ones, socket, epoll, inotify, the store's lock, the pipe of workers' output; libraries.
+// Standard streams, socket, epoll, inotify, the store's lock, the workers' output; libraries.
 constexpr std::uint64_t kBase = 32;
 constexpr std::uint64_t kPerThread = 2, kPerProcess = 2;
 constexpr int kMinConnections = 16;

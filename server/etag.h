@@ -7,8 +7,8 @@
 
 namespace farol::server {
 
-/// A strong entity tag, quotes included, that names all of `parts`: their order and their borders
-/// count.
+/// Returns a strong entity tag, with quotes: a digest of all `parts`, which depends on their order
+/// and borders.
 std::string entityTag(const std::vector<std::string_view>& parts);
 
 /// True if an If-None-Match header (a list of tags, or *) covers `tag`; weak comparison, by

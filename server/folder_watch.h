@@ -21,8 +21,8 @@ class FolderWatch {
     FolderWatch(const FolderWatch&) = delete;
     FolderWatch& operator=(const FolderWatch&) = delete;
 
-    /// The same number as before only if nothing is known to have changed since. Nothing where the
-    /// folder cannot be watched as a whole: then every request has to look.
+    /// Returns the same number as before only if no change since is known. Nothing if the folder
+    /// cannot be watched as a whole: then every request has to read it.
     std::optional<std::uint64_t> revision();
     /// Why the folder is not watched; empty while it is.
     std::string fault() const;

@@ -33,7 +33,7 @@ std::string asciiJson(const json& value) {
 }
 
 std::string diagnosticsHeader(const Diagnostics& diagnostics) {
-    // Header values are short; findings beyond that are for /v1/validate.
+    // Header values are short; /v1/validate returns all findings.
     constexpr std::size_t kMaxBytes = 3000;
     json kept = json::array();
     Diagnostics shown = diagnostics;

@@ -21,7 +21,7 @@ class Logger {
 
     void request(const http::Request& request, const http::Response& response, double milliseconds,
                  bool sent);
-    /// Anything else worth a line.
+    /// Logs any other event.
     void event(const std::string& name, const std::string& message);
     /// The line that event() logs.
     static std::string eventLine(const std::string& name, const std::string& message);

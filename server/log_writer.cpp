@@ -16,10 +16,10 @@
 namespace farol::server {
 namespace {
 
-// A pipe that poll() finds writable has room for so many bytes (PIPE_BUF, pipe(7)).
+// A pipe that poll() reports as writable has room for this many bytes (PIPE_BUF, pipe(7)).
 constexpr std::size_t kPiece = 4096;
 constexpr int kPollMs = 100;
-// Lines of so long a time are written together: fewer system calls and wake-ups.
+// Interval whose lines are written together: fewer system calls and wake-ups.
 constexpr std::chrono::milliseconds kCollect{5};
 // For the thread to see that it is abandoned: longer than kPollMs.
 constexpr std::chrono::milliseconds kAbandon{500};

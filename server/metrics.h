@@ -18,7 +18,7 @@ namespace farol::server {
 /// The content of /metrics in the text format of Prometheus, version 0.0.4. Thread-safe.
 class Metrics {
   public:
-    /// `route` is a pattern ("/v1/scenes/{id}"), never a path: there are few of them.
+    /// `route`: a pattern ("/v1/scenes/{id}"), not a path: bounds the number of time series.
     void request(std::string_view route, int status, double milliseconds);
     /// `stage` as in Server-Timing.
     void stage(const std::string& stage, double milliseconds);

@@ -3,7 +3,7 @@
 namespace farol::server {
 namespace {
 
-// One picture must not sweep out all others.
+// One image must not evict all others.
 constexpr std::size_t kMinPictures = 4;
 
 /// Returns its memory use, with the overhead of allocator and map: small images are no larger

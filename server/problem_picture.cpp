@@ -25,15 +25,15 @@ std::string noticeOf(const Problem& problem, const Diagnostics& errors) {
     return toUtf8(text);
 }
 
-/// Size and format that the request asks for, as far as they can be read: the fault may be one of
-/// them.
+/// Returns the size and format of the request as far as they are valid: one of them may be the
+/// fault.
 Parameters shapeOf(const http::Request& request) {
     Parameters wanted;
     for (const auto& [name, value] : request.query) {
         if (name != "width" && name != "height" && name != "format") continue;
         try {
             render::applyOption(wanted.picture, name, value);
-        } catch (const Error&) {  // its default then
+        } catch (const Error&) {  // keeps the default
         }
         wanted.formatGiven = wanted.formatGiven || name == "format";
     }
@@ -57,7 +57,7 @@ void drawProblem(Context& context, const http::Request& request, const Problem& 
         response.body = std::move(done.result.bytes);
         response.set("X-Farol-Diagnostics", diagnosticsHeader(errors));
     } catch (const std::exception&) {
-        // No worker is free, or no format is welcome: the problem goes out as it is.
+        // No worker is free, or no format is acceptable: sends the problem document itself.
     }
 }
 

@@ -5,8 +5,8 @@
 
 namespace farol::server {
 
-/// Makes a picture of the answer to a problem, where the request wants that (onerror=image) and a
-/// worker can draw it; status and headers stay.
+/// Replaces a problem document by an image of its text if the request has onerror=image and a
+/// worker can render it; status and headers stay.
 void drawProblem(Context& context, const http::Request& request, const Problem& problem,
                  http::Response& response);
 

@@ -15,18 +15,18 @@ struct RateLimit {
     bool trustProxy = false;  ///< the client is the last address of X-Forwarded-For
 };
 
-/// Returns the client that a request counts for: the peer's address, or the proxy's peer; an IPv6
-/// address counts by its first 64 bits, since one client has all of the rest.
+/// Returns the client that a request counts for: the peer's address, or the proxy's peer; the first
+/// 64 bits of an IPv6 address, since one client usually has the whole /64.
 std::string clientOf(const http::Request& request, bool trustProxy);
 
-/// A token bucket for each client. Remembers the 10,000 that came last. Threads may share it.
+/// A token bucket for each client. Keeps the 10,000 most recent clients. Thread-safe.
 class RateLimiter {
   public:
     using Clock = std::chrono::steady_clock;
     explicit RateLimiter(RateLimit limit);
 
-    /// Takes one request of the client's share. Throws Busy limit.rate with the seconds after
-    /// which the next one is accepted.
+    /// Takes one token of the client. Throws Busy limit.rate with the seconds after which the next
+    /// request is accepted.
     void admit(const std::string& client, Clock::time_point now = Clock::now());
     bool isOn() const { return limit_.perSecond > 0; }
 

@@ -45,9 +45,9 @@ struct ServeOptions {
 /// Serves until SIGTERM, SIGINT or SIGHUP. Then it is unready and goes on serving for
 /// `drain`, or until a second signal, and lets the requests in flight end. Prints one line,
 /// "listening on http://127.0.0.1:8080", to stdout when it is ready to accept (with the port
-/// taken where `listen.port` is 0); logs to stderr, one line of JSON a request. Returns 0. Throws
-/// std::runtime_error when it cannot listen and Error option.range or asset.missing for options
-/// that cannot be. Call it before other threads are started: it blocks the signals for all.
+/// chosen where `listen.port` is 0); logs to stderr, one line of JSON a request. Returns 0. Throws
+/// std::runtime_error when it cannot listen and Error option.range or asset.missing for invalid
+/// options. Call it before other threads are started: it blocks the signals for all.
 int serve(const ServeOptions& options);
 
 }  // namespace farol::server

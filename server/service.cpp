@@ -16,7 +16,7 @@ namespace {
 constexpr const char* kDataPolicy = "default-src 'none'; frame-ancestors 'none'; sandbox";
 
 constexpr std::chrono::milliseconds kRefusalHold{200};
-// Largest bodies that one client may have in work at once.
+// Bodies of the largest size that one client may have in memory at once.
 constexpr std::size_t kBodiesOfOne = 4;
 constexpr std::chrono::seconds kSweep{60};
 
@@ -52,7 +52,7 @@ std::size_t Service::bodyLimit(const http::Request& whole) const {
 http::Response Service::handle(const http::Request& whole, http::Body& body) {
     const std::string& base = context_.options.basePath;
     if (base.empty() || whole.path != base) return answer(inside(whole), body);
-    // The page's own addresses are relative to it: they need the slash.
+    // The page's URLs are relative to it: they need the slash.
     http::Response response;
     response.status = 308;
     response.set("Location", base + "/");

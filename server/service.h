@@ -30,16 +30,16 @@ class Service final : public http::Handler {
 
     /// Readiness turns false; requests are still answered.
     void drain() { context_.isDraining = true; }
-    /// Where the metrics learn of connections. Call it before the first request.
+    /// Sets the source of the connections' metrics. Call it before the first request.
     void watch(std::function<http::Traffic()> traffic) { context_.traffic = std::move(traffic); }
     const Router& router() const { return router_; }
     const std::string& basePath() const { return context_.options.basePath; }
 
   private:
-    /// The problem that the exception being handled is.
+    /// Returns the problem of the exception being handled.
     Problem problemOfCurrent(const http::Request& request);
-    /// The request without the base path. Of others the path stays: probes ask without it, and a
-    /// proxy may have taken it off.
+    /// Returns the request without the base path. Other paths stay: probes do not use it, and a
+    /// proxy may have removed it.
     http::Request inside(const http::Request& request) const;
     http::Response answer(const http::Request& request, http::Body& body);
     void finish(const http::Request& request, http::Response& response) const;

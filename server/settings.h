@@ -11,12 +11,12 @@
 
 namespace farol::server {
 
-/// Where the value of a setting is kept. Times are written in seconds.
+/// The field of a setting. Times are written in seconds.
 using SettingTarget =
     std::variant<int*, double*, std::uint64_t*, bool*, std::string*, std::chrono::milliseconds*>;
 
-/// One setting of `farol serve`, of which its flag, environment variable, TOML key and description
-/// are made. Its default is that of its field.
+/// One setting of `farol serve`: source of its flag, environment variable, TOML key and
+/// description. Its default is that of its field.
 struct Setting {
     std::string name;  ///< "max-body": --max-body, FAROL_MAX_BODY, max-body = 1000
     std::string help;

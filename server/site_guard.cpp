@@ -73,7 +73,7 @@ void SiteGuard::check(const http::Request& request) const {
 
 void SiteGuard::checkHost(const http::Request& request) const {
     if (request.lacksHost) throw Error(message<"http.host">());
-    // HTTP/1.0 knows no Host, and no browser sends it.
+    // HTTP/1.0 has no Host, and no browser uses it.
     if (hosts_.empty() || !request.authority) return;
     const http::Authority& asked = *request.authority;
     const bool isKnown =

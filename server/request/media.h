@@ -11,8 +11,8 @@ namespace farol::server {
 /// RFC 9110 section 12.5.1.
 double acceptedQuality(const std::optional<std::string>& accept, const std::string& type);
 
-/// Where the query names no format, takes the one that the client likes best, PNG first. Throws
-/// Error http.not-acceptable when it takes none of them, or not the one it names.
+/// If the query names no format, chooses the one that the client prefers, PNG first. Throws Error
+/// http.not-acceptable when the client accepts none, or not the named one.
 void chooseFormat(Parameters& wanted, const std::optional<std::string>& accept);
 
 }  // namespace farol::server

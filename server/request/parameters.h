@@ -41,7 +41,7 @@ std::int64_t wholeNumber(const std::string& name, const std::string& value, std:
 /// Parameters of all routes that render: those of turnOf(), and the form of an error response.
 inline const std::vector<std::string> kDrawnNames = {"session", "seq", "onerror"};
 
-/// Which frame of which client a picture is. Throws Error option.range for a session that is not
+/// Returns the session and frame number of a request. Throws Error option.range for a session not
 /// 1..64 letters, digits, "-", "." or "_", for a seq that is not a whole number in 0..2^53-1, and
 /// where one is given without the other.
 worker::Turn turnOf(const Parameters& parameters);

@@ -23,7 +23,7 @@ struct Problem {
     std::string detail;
     Diagnostics diagnostics;            ///< at least one
     http::Fields headers;               ///< Allow, Retry-After, ...
-    std::chrono::milliseconds hold{0};  ///< the answer is sent that much later
+    std::chrono::milliseconds hold{0};  ///< delay of the response
 };
 
 Problem problemOf(const Error& error);
@@ -44,7 +44,7 @@ class ProblemException : public std::exception {
 /// Returns the diagnostics of the document: all but the infos, at least one.
 Diagnostics errorsOf(const Problem& problem);
 
-/// The answer: here alone a problem becomes a document. Precondition: problem.status is 400..599.
+/// Returns the response with the problem document. Precondition: problem.status is 400..599.
 http::Response problemResponse(const Problem& problem, const std::string& requestId);
 
 /// [{code,severity,file,line,column,message,field}]; unknown members are left out.

@@ -10,7 +10,7 @@
 
 namespace farol::server {
 
-/// A scene as it came in the body of a request.
+/// A scene in the body of a request.
 struct Upload {
     /// The document and its files, or an archive of them that is still to be opened; with an
     /// identity, without options.

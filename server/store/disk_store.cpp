@@ -157,7 +157,7 @@ void DiskStore::readAgain(const std::string& id) {
     if (loaded == Loaded::whole) index_.put(scene.entry);
 }
 
-// The caller holds writing_, or is the only one.
+// The caller holds writing_, or no other thread exists.
 bool DiskStore::drop(const std::string& id) {
     if (const int failed = removeDurably(pathOf(id)); failed != 0) {
         log_(id + " cannot be removed: " + std::strerror(failed));
@@ -239,8 +239,8 @@ std::optional<Stored> DiskStore::get(const std::string& id) {
     return scene;
 }
 
-// Reads a second time while no file changes: the first time it may have been removed and sent again
-// in between.
+// Reads again under writing_: during the first read, the scene may have been removed and uploaded
+// again.
 std::optional<Stored> DiskStore::reload(const std::string& id) {
     const std::lock_guard alone(writing_);
     Stored scene;
@@ -255,7 +255,7 @@ std::optional<Stored> DiskStore::reload(const std::string& id) {
     Loaded loaded = load(pathOf(id), read, error);
     std::error_code failed;
     if (loaded == Loaded::missing && !fs::is_directory(folder_ + "/scenes", failed)) {
-        loaded = Loaded::failed;  // the disk is away, not the scene
+        loaded = Loaded::failed;  // the disk is missing, not the scene
         error = ENOENT;
     }
     if (loaded == Loaded::whole) {

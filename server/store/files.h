@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-/// Files that survive the end of the process, and of the machine, at any moment.
+/// Durable file operations: consistent after a crash of the process or the machine at any moment.
 namespace farol::server::store {
 
 /// A descriptor that is closed with it.
@@ -19,14 +19,14 @@ class Descriptor {
     int fd_;
 };
 
-/// Writes `bytes` to `temporary`, and when they are on the disk, gives the file the name `path`,
-/// and puts that on the disk as well. Returns 0 or an errno: then there is no new file, or (where
-/// only the last step failed) a whole one that may not outlive the machine. All descriptors are
-/// opened before the first change.
+/// Writes `bytes` to `temporary`, syncs it, renames it to `path` and syncs the folder. Returns 0 or
+/// an errno: then there is no new file, or (if only the last step failed) a complete one that may
+/// not survive a crash of the machine. Opens all descriptors before
+/// the first change.
 int writeDurably(const std::string& temporary, const std::string& path, std::string_view bytes);
 
-/// Removes the file for good. Returns 0 (also where there was none) or an errno. All descriptors
-/// are opened before the file is removed.
+/// Removes the file durably. Returns 0 (also where there was none) or an errno. Opens all
+/// descriptors before it removes the file.
 int removeDurably(const std::string& path);
 
 /// Outcome of readWhole.

@@ -63,7 +63,7 @@ std::optional<std::vector<std::string>> Index::roomFor(const Entry& entry,
         }
     };
     Use all{bytes_ + entry.bytes, entries_.size() + 1}, own{entry.bytes, 1};
-    std::vector<const Slot*> slots;  // the first to go first
+    std::vector<const Slot*> slots;  // in the order of eviction
     for (const std::string& id : order_) {
         slots.push_back(&entries_.at(id));
         if (slots.back()->owner != client) continue;

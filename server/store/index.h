@@ -10,8 +10,8 @@
 
 namespace farol::server::store {
 
-/// Index that all stores share: scenes, their expiry, the order of eviction. Not for
-/// several threads at once.
+/// The index of all stores: scenes, their expiry, the order of eviction. Not
+/// thread-safe.
 class Index {
   public:
     explicit Index(StoreLimits limits) : limits_(limits) {}
@@ -20,9 +20,9 @@ class Index {
     Time expiry(Time now) const;
     /// Null where there is none, or it has expired.
     const Entry* find(const std::string& id, Time now) const;
-    /// The scene is now the last to go.
+    /// Moves the scene to the end of the order of eviction.
     void touch(const std::string& id, Time now = {});
-    /// Adds or replaces; the scene is now the last to go. `owner`: the client that sent it.
+    /// Adds or replaces a scene, at the end of the order. `owner`: the client that sent it.
     void put(const Entry& entry, const std::string& owner = "", Time now = {});
     /// The client that sent a scene; empty where there is none.
     std::string ownerOf(const std::string& id) const;
@@ -35,7 +35,7 @@ class Index {
                                                     Time now) const;
     static constexpr std::chrono::seconds kProtected{3'600};
     void erase(const std::string& id);
-    /// The ids to remove, so that the rest is within the limits. Never `keep`.
+    /// Returns the ids to evict, so that the rest is within the limits. Never `keep`.
     std::vector<std::string> toEvict(const std::string& keep, Time now) const;
     std::vector<std::string> expired(Time now) const;
     std::vector<Entry> listed(Time now) const;
@@ -50,7 +50,7 @@ class Index {
     };
     StoreLimits limits_;
     std::map<std::string, Slot> entries_;
-    std::list<std::string> order_;  ///< the first to go first
+    std::list<std::string> order_;  ///< of eviction
     std::uint64_t bytes_ = 0;
 };
 

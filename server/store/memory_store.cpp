@@ -31,7 +31,7 @@ SceneStore::Put MemoryStore::keep(const std::string* client, const scene::Bundle
     const Entry* known = index_.find(entry.id, now());
     const bool created = known == nullptr;
     if (!created) {
-        // It stays among the scenes of its first sender.
+        // It keeps the owner of its first upload.
         entry.listed = entry.listed || known->listed;
         index_.put(entry, index_.ownerOf(entry.id), now());
         return {entry, false};

@@ -13,7 +13,7 @@ class MemoryStore final : public SceneStore {
   public:
     explicit MemoryStore(StoreLimits limits) : index_(limits) {}
 
-    /// Without a client: any scene makes room, the least recently used first.
+    /// Stores without a client: may evict any scene, the least recently used first.
     Put put(const scene::Bundle& bundle, bool listed) override;
     Put putFor(const std::string& client, const scene::Bundle& bundle, bool listed) override;
     std::optional<Stored> get(const std::string& id) override;

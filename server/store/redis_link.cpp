@@ -13,7 +13,7 @@
 namespace farol::server::store {
 namespace {
 
-constexpr std::size_t kMaxFreeConnections = 16;  // connections kept for later
+constexpr std::size_t kMaxFreeConnections = 16;  // idle connections that are kept
 constexpr const char* kPausing = "it was not there a moment ago";
 
 [[noreturn]] void refuseUrl(const std::string& why) {
@@ -63,7 +63,7 @@ Reply send(redisContext& context, const std::vector<std::string_view>& words) {
         redisCommandArgv(&context, static_cast<int>(words.size()), starts.data(), sizes.data())));
 }
 
-/// Redis is there and cannot do it now: while it loads its data, as a replica, behind a script.
+/// True for errors of a Redis that is temporarily unable: loading data, a replica, a busy script.
 bool isPassing(std::string_view refusal) {
     for (const char* start : {"LOADING", "READONLY", "MASTERDOWN", "BUSY", "TRYAGAIN"})
         if (refusal.starts_with(start)) return true;
@@ -169,7 +169,7 @@ void RedisLink::note(const std::string& fault, Clock::time_point failedAt) {
         const bool was = std::exchange(up_, fault.empty());
         if (!up_) {
             free_.clear();
-            // A call within the pause has tried nothing, and must not make it longer.
+            // A call within the pause made no attempt, and must not extend the pause.
             notBefore_ = std::max(notBefore_, failedAt + kPause);
         }
         if (was == up_) return;
@@ -179,7 +179,7 @@ void RedisLink::note(const std::string& fault, Clock::time_point failedAt) {
 
 RedisReply RedisLink::ask(const std::vector<std::string_view>& words) {
     std::string fault;
-    // The first connection may be one that a restart of Redis has left dead.
+    // The first connection may be dead after a restart of Redis.
     for (int attempt = 0; attempt < 2; ++attempt) {
         Connection connection;
         try {
@@ -192,7 +192,7 @@ RedisReply RedisLink::ask(const std::vector<std::string_view>& words) {
         if (!reply) {
             fault = connection->errstr;
             const std::lock_guard lock(mutex_);
-            free_.clear();  // they are as old
+            free_.clear();  // they are likely dead, too
             continue;
         }
         const bool refused = reply->type == REDIS_REPLY_ERROR;

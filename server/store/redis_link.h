@@ -11,7 +11,7 @@
 
 struct redisContext;
 
-/// The one place that knows hiredis.
+/// Wraps hiredis; no other code uses it.
 namespace farol::server::store {
 
 /// Where a Redis is: redis://[user:password@]host[:port][/database].
@@ -44,10 +44,10 @@ class RedisAway : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// Commands to one Redis, from many threads at once. A connection is made when it is needed, kept
-/// for the next command and given up when it fails; a command is then tried once more on a new one,
-/// so that all of them must be harmless when done twice. After a failure nothing is tried for
-/// `kPause`: a Redis that is gone costs its callers no time.
+/// Sends commands to one Redis. Thread-safe. Opens connections on demand, keeps them for later
+/// commands, and closes them on failure. A failed command is retried once on a new connection, so
+/// all commands must be idempotent. After a failure, makes no attempt for `kPause`: an unreachable
+/// Redis costs its callers no time.
 class RedisLink {
   public:
     using Log = std::function<void(const std::string&)>;

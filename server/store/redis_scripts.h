@@ -74,8 +74,8 @@ local e = entry(id)
 return {created, e[1], e[2], e[3]}
 )";
 
-/// ID PAUSE_US -> {listed, expires, bytes}, or nil. That it was asked for is written down once a
-/// pause only: every writing goes to Redis's disk; where it is full, not at all.
+/// ID PAUSE_US -> {listed, expires, bytes}, or nil. Records the use at most once a pause, since
+/// Redis writes every change to its disk; not at all if Redis is full.
 inline constexpr const char* kTouch = R"(
 local id = ARGV[1]
 if redis.call('EXISTS', at('scene:' .. id)) == 0 then return false end

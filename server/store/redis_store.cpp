@@ -10,11 +10,11 @@
 namespace farol::server::store {
 namespace {
 
-constexpr int kRetryAfterOutageS = 5;  // a Redis that starts again is there by then
+constexpr int kRetryAfterOutageS = 5;  // time of a restart of Redis
 constexpr int kRetryAfterChangeS = 1;
 constexpr const char* kAsideS = "604800";  // damaged files are kept for a week
 constexpr int kRetryAfterFullS = 60;       // until scenes expire or are removed
-// In a cluster, one node has all of it: the scripts need that.
+// Hash tag: in a cluster, one node has all keys, as the scripts need.
 constexpr const char* kPrefix = "{farol}";
 constexpr int kMaxRounds = 1'000;  // of expiring, each of at most a thousand scenes
 
@@ -103,7 +103,7 @@ SceneStore::Put RedisStore::put(const scene::Bundle& bundle, bool listed) {
     scene.entry.id = idOf(bundle);
     scene.entry.expires = Time::max();
     scene.bundle = std::make_shared<const scene::Bundle>(bundle);
-    // Changeable facts are stored beside the file, which is the same for all senders.
+    // Mutable facts are stored beside the file, which is the same for all uploads.
     const std::string file = encodeScene(scene);
     refuseLargerThan(limits_, file.size());
     const auto expireMs = std::chrono::milliseconds(limits_.expire).count();

@@ -12,13 +12,13 @@ namespace farol::server::store {
 
 /// Scenes in a Redis that many services share: a scene acknowledged by one is visible to all.
 /// Every change is one script: it is atomic, and Redis's clock applies to all replicas.
-/// Where Redis cannot be asked, put, remove and list throw Busy store.unreachable, and get gives
+/// While Redis is unreachable, put, remove and list throw Busy store.unreachable, and get returns
 /// the scenes in this service's memory.
 class RedisStore final : public SceneStore {
   public:
     using Log = std::function<void(const std::string&)>;
 
-    /// Does not throw where Redis is away: it may come later.
+    /// Does not throw if Redis is unreachable: it may start later.
     /// Records uses of a scene at most once in `usePause`.
     RedisStore(RedisAddress address, StoreLimits limits, Log log,
                std::chrono::microseconds usePause = std::chrono::minutes(1));
@@ -28,7 +28,7 @@ class RedisStore final : public SceneStore {
     bool remove(const std::string& id) override;
     std::vector<Entry> list() override;
     std::size_t expire() override;
-    /// 0 where Redis cannot be asked.
+    /// 0 while Redis is unreachable.
     std::uint64_t bytes() const override;
     bool isReachable() const override { return link_.isUp(); }
 

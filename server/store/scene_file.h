@@ -13,7 +13,7 @@ namespace farol::server::store {
 /// The digest is of all that follows it.
 std::string encodeScene(const Stored& scene);
 
-/// The scene, with its id and size, or nothing where the file is cut off, changed, or another's.
+/// Returns the scene, with its id and size, or nothing for a truncated, damaged or foreign file.
 std::optional<Stored> decodeScene(std::string_view file);
 
 }  // namespace farol::server::store

@@ -9,7 +9,7 @@
 
 #include "scene/files/bundle.h"
 
-/// Where uploaded scenes are kept.
+/// Storage of uploaded scenes.
 namespace farol::server::store {
 
 using Time = std::chrono::system_clock::time_point;
@@ -21,7 +21,7 @@ struct Entry {
     std::string id;           ///< "~" and the digest of the bundle
     bool listed = false;      ///< in the gallery; else found by its id only
     Time expires;             ///< Time::max(): never
-    std::uint64_t bytes = 0;  ///< that it takes of the store
+    std::uint64_t bytes = 0;  ///< its size in the store
     bool operator==(const Entry&) const = default;
 };
 
@@ -36,8 +36,8 @@ struct StoreLimits {
     std::chrono::seconds expire{7 * 24 * 3600};  ///< after the last upload; 0: never
 };
 
-/// Scenes by the digest of their content. All calls may come from many threads. Throws Busy
-/// store.full, store.failed or store.unreachable when it cannot do it; nothing is kept then.
+/// Scenes by the digest of their content. Thread-safe. Failed calls throw Busy store.full,
+/// store.failed or store.unreachable and change nothing.
 class SceneStore {
   public:
     virtual ~SceneStore() = default;

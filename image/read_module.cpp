@@ -27,8 +27,8 @@ std::string findModule() {
     return (folder / FAROL_OIIO_MODULE).string();
 }
 
-/// A library of the module starts libgcrypt, which warns on standard error where a sandbox keeps it
-/// from locking memory. No secrets are here.
+/// Silences libgcrypt, which a library of the module starts: in a sandbox it warns on standard
+/// error, because it cannot lock memory. No secrets are here.
 void silenceGcrypt() {
     constexpr int kDisableSecureMemoryWarning = 27;  // GCRYCTL_DISABLE_SECMEM_WARN
     void* library = dlopen("libgcrypt.so.20", RTLD_NOW | RTLD_LOCAL);

@@ -75,9 +75,9 @@ namespace {
 
 [[noreturn]] void throwCutOff() { throw std::runtime_error("the file is cut off"); }
 
-/// The file as stb_image reads it. stb_image reads ahead into a buffer that it passes first; that
-/// buffer is filled once and from then on byte by byte, so that a read past the end is one that
-/// the decoder needs.
+/// Input callbacks of stb_image. Its read-ahead buffer, which it passes first, is filled once and
+/// from then on byte by byte: a read past the end of the file is then one that the decoder needs,
+/// not a read-ahead.
 struct Source {
     explicit Source(std::string_view bytes) : rest(bytes) {}
 

@@ -14,7 +14,7 @@ namespace {
 
 using Form = scene::ShapeArgument::Form;
 
-/// The word with a point for its comma, where that makes it a number; else "".
+/// Returns the word with a point for its comma if that is a number; else "".
 std::string withPoint(std::string word) {
     const std::size_t comma = word.find(',');
     if (comma == std::string::npos) return "";

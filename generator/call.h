@@ -13,9 +13,9 @@ namespace farol::generator {
 /// order exchanged (ShapeEntry::isExchanged), each with a note; without, they are errors.
 ShapeCall parseCall(const std::vector<std::string>& words, std::vector<Message>* notes = nullptr);
 
-/// The text of a call, "cone 1 2 auto 3": parseCall makes the same call of its words, as splitWords
-/// gives them. A file name that is not one word stands in quotes, which splitWords does not put
-/// together again; still no two calls have the same text.
+/// Returns the text of a call, "cone 1 2 auto 3": parseCall of its words (splitWords) gives the
+/// same call. A file name of several words is in quotes, which splitWords does not
+/// join again; still no two calls have the same text.
 std::string textOf(const ShapeCall& call);
 
 /// True for a finite number as scenes write it: "000", ".5", "+1", "1e3", "2.5f".

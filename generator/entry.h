@@ -30,7 +30,7 @@ struct Argument {
     std::string help = {};
     double fallback = 0;  ///< the value where the argument is left out
     double usual = 1;     ///< the value for a file name that gives no size ("torus.3d")
-    /// The argument that this number is instead where it is the last one: of "box 2 3" the 3 is
+    /// Index of the argument that this number becomes if it is the last: in "box 2 3" the 3 is
     /// DIV.
     std::optional<std::size_t> whenLast = {};
 
@@ -56,8 +56,8 @@ struct ShapeEntry {
                      scene::UvLayout uv) = nullptr;
     /// The number of triangles (for a shape with a file, of the parsed file), or more.
     std::size_t (*count)(const ShapeCall& call, const std::string& fileBytes) = nullptr;
-    /// True where the first two lengths stand in the other order that generators write; the parser
-    /// of scenes exchanges them with a warning. Null: there is one order.
+    /// True if the first two lengths are in the reverse order, which some generators write; the
+    /// scene parser exchanges them with a warning. Null: there is one order.
     bool (*isExchanged)(const ShapeCall& call) = nullptr;
     /// Returns the problem of arguments that are each in range but do not go together, a message
     /// part.*; an empty message where there is none. May be null.

@@ -13,10 +13,10 @@ struct Surface;
 struct SurfaceKind {
     /// Distance from `eye` to the curved part, in the surface's units. Null: not known.
     double (*distance)(const Surface& surface, const glm::dvec3& eye) = nullptr;
-    /// True where the pixels of a mesh with so many divisions of a full turn have to follow their
-    /// rays to the surface: it costs them up to half as much again, which pays where the outline
-    /// alone would do with fewer divisions than interpolation needs, and where interpolation never
-    /// gets there (the tips of textures, cones).
+    /// True if the fragments of a mesh with this many divisions of a full turn must intersect
+    /// their rays with the surface. It costs them up to half as much again. It pays if the outline
+    /// needs fewer divisions than interpolation does, or if interpolation never suffices (the tips
+    /// of textures, cones).
     bool (*isNeeded)(const Surface& surface, double fullTurn, bool textured) = nullptr;
     /// Divisions of a full turn, in the coarser direction, of a mesh with these level arguments.
     double (*fullTurn)(const std::vector<double>& levels) = nullptr;

@@ -50,8 +50,8 @@ std::string withoutEnding(const std::string& name) {
     return fraction ? name : name.substr(0, dot);
 }
 
-/// "bezier_10", "teapot_10", "bezier_comet_10", "teapot_patch_10": numbers, and the name of a
-/// file of patches, which is the built-in one where none is.
+/// Parses "bezier_10", "teapot_10", "bezier_comet_10", "teapot_patch_10": numbers, and the name of
+/// a patch file, by default the built-in one.
 std::optional<std::vector<std::string>> fileShapeOfName(const ShapeEntry& shape,
                                                         const std::vector<std::string>& words) {
     std::vector<std::string> numbers;
@@ -152,7 +152,7 @@ ShapeCall parseComment(std::vector<std::string> words, const std::string& fileNa
     }
     if (words.empty() || findShape(words[0]) == nullptr) {
         const std::string named = leadingWord(fileName);
-        // A word that is no number is a shape's name that does not exist: let it be reported.
+        // Any other word is an unknown shape's name: parsing reports it.
         if ((words.empty() || isNumber(words[0])) && findShape(named) != nullptr)
             words.insert(words.begin(), named);
     }

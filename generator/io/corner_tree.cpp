@@ -9,8 +9,8 @@ namespace {
 
 using Point = glm::dvec2;
 
-/// The most that turn(a, b, p) is for a p of the box. Rounding is monotonic, so that no p that is
-/// computed to be inside lies in a box that is computed to be outside.
+/// Returns the largest turn(a, b, p) over the points p of the box. Rounding is monotonic: a point
+/// computed to be inside is never in a box computed to be outside.
 double mostTurn(const Point& a, const Point& b, const Point& low, const Point& high) {
     return turn(a, b, {b.y >= a.y ? low.x : high.x, b.x >= a.x ? high.y : low.y});
 }

@@ -116,7 +116,7 @@ std::size_t numbersOf(char kind, double count, std::size_t unit) {
     }
 }
 
-/// The lists of a layout whose length is that of the file; empty where there are none.
+/// Returns the lists of a layout if their length equals the file's; else none.
 std::vector<List> place(const Cells& cells, std::string_view layout, Counts counts,
                         std::size_t vertexUnit, std::size_t indexUnit) {
     const std::size_t per = cells.wordsPerCount();

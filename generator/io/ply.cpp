@@ -408,7 +408,7 @@ RawMesh decodePly(std::string_view bytes, const std::string& fileName, bool face
             try {
                 faces.readFaces(element);
             } catch (const Error& error) {
-                // A file that is cut off has the faces before that.
+                // A truncated file keeps its complete faces.
                 if (error.code() != "mesh.truncated" || mesh.triangles() == 0) throw;
                 mesh.findings.push_back(
                     diagnosticOf(Severity::warning,

@@ -27,14 +27,14 @@ struct RawMesh {
     std::size_t triangles() const { return indices.size() / 3; }
 };
 
-/// Makes floats of places and coordinates: an origin is subtracted where the mesh is more than 64
-/// times as far away as it is large, whole turns off texture coordinates where they are far from 0.
-/// The origin is a multiple of a power of two that is at least the mesh's size, so that no digit is
-/// lost. NaN texture coordinates become 0 and are counted in `leftOut`. Moves the arrays out of
+/// Converts positions and texture coordinates to float. Subtracts an origin if the mesh is more
+/// than 64 times as far away as it is large, and whole turns from texture coordinates far from 0.
+/// The origin is a multiple of a power of two of at least the mesh's size: no digit is lost. NaN
+/// texture coordinates become 0 and are counted in `leftOut`. Moves the arrays out of
 /// `raw`; `smooth`, `leftOut` and `findings` stay.
 MeshArrays settle(RawMesh& raw);
 
-/// The origin that `settle` takes off these places: 0 where they need none.
+/// Returns the origin that `settle` subtracts from these positions: 0 if they need none.
 glm::dvec3 originOf(const std::vector<glm::dvec3>& positions);
 
 /// A channel of a file as 0..255: rounded, NaN as 0. `most` is its full value, 1 or 255.

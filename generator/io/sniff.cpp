@@ -246,7 +246,7 @@ void parseAsRows(MeshText& text) {
     }
 }
 
-/// The form of a text, whose rows are parsed where no form before them recognises it.
+/// Returns the first form that recognises the text. Parses its rows only if no earlier form does.
 const MeshForm* recogniseForm(MeshText& text) {
     const std::vector<MeshForm>& forms = formTable();
     for (const MeshForm& form : forms) {

@@ -6,9 +6,9 @@
 
 namespace farol::scene {
 
-/// The time after which every motion and colour of the scene is where it was: the least common
-/// multiple of all laps, turns and hue cycles, taken to the millisecond. Nothing for a scene that
-/// stands still, or whose loop is longer than kMaxLoopSeconds.
+/// Returns the period of all motions and colours of the scene: the least common multiple of all
+/// laps, turns and hue cycles, rounded to the millisecond. Nothing for a still scene, or a period
+/// longer than kMaxLoopSeconds.
 std::optional<double> loopSeconds(const Scene& scene);
 
 inline constexpr double kMaxLoopSeconds = 3600.0;

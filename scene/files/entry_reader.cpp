@@ -36,7 +36,7 @@ struct Closer {
 };
 using Reader = std::unique_ptr<archive, Closer>;
 
-/// Names in archives are UTF-8 where they are anything; the library asks the locale.
+/// Sets a UTF-8 locale while it lives: libarchive decodes names by the locale.
 class Utf8Locale {
   public:
     Utf8Locale() : locale_(newlocale(LC_CTYPE_MASK, "C.UTF-8", nullptr)) {
@@ -178,7 +178,7 @@ std::size_t maxPassedBytes(std::size_t packed) {
     return std::min(kMaxPassed, std::max(kFreeBytes, packed * kMaxRatio));
 }
 
-/// The size that the archive gives, 0 where it gives none.
+/// Returns the size in the archive's directory, 0 if unknown.
 std::uint64_t sizeOf(archive_entry* entry) {
     if (archive_entry_size_is_set(entry) == 0) return 0;
     const la_int64_t size = archive_entry_size(entry);

@@ -11,7 +11,7 @@ namespace farol::scene {
 /// True for the first bytes of a zip, tar, gzip, 7z or rar file. Looks at nothing else.
 bool isArchive(std::string_view bytes);
 
-/// Bytes that the files that are used of an archive of `packed` bytes may have together.
+/// Returns the most bytes that the used files of an archive of `packed` bytes may have together.
 std::size_t maxUnpackedBytes(std::size_t packed);
 
 /// Throws Error limit.bundle: over Assets::kMaxListed entries.
@@ -32,12 +32,12 @@ class EntryReader {
     /// one.
     bool next();
     const std::string& path() const { return path_; }
-    /// The target of a link, symbolic or hard, as a path in the archive: "" where that is outside.
+    /// Returns the target of a symbolic or hard link as a path in the archive, "" if it is outside.
     /// Nothing for a file. A link has no content.
     const std::optional<std::string>& link() const { return link_; }
     std::uint64_t size() const { return size_; }  ///< in the archive's directory; 0: unknown
-    /// The file's bytes. Throws Error limit.bundle where there are more than `left`, bundle.entry
-    /// for one that is encrypted or packed by a method that is not read.
+    /// Returns the file's bytes. Throws Error limit.bundle over `left` bytes, bundle.entry for an
+    /// encrypted file or an unsupported method.
     std::string content(std::size_t left);
 
   private:

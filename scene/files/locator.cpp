@@ -147,7 +147,7 @@ bool Locator::haveEqualBytes(const std::string& a, const std::string& b) {
     return !first.empty() && first == digestOf(b);
 }
 
-/// A digest of the file, read once; empty where that would be more than may be read.
+/// Returns a digest of the file, read once; empty for a file over bytesLeft_.
 const std::string& Locator::digestOf(const std::string& path) {
     const auto [known, fresh] = digests_.try_emplace(path);
     const std::uint64_t size = assets_.size(path).value_or(0);

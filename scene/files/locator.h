@@ -13,8 +13,8 @@
 namespace farol::scene {
 
 /// Finds the files that documents name, by the rule of docs/scene-language.md ("How a file is
-/// found"): the only place where it is implemented. Lists the assets once, when it first has to, so
-/// that many names that are not there take no more than a look-up each.
+/// found"); its only implementation. Lists the assets once, on first use: each missing name costs
+/// one look-up.
 class Locator {
   public:
     /// The assets must outlive it, and their files stay as they are. `main` is the document that

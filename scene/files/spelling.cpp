@@ -89,7 +89,7 @@ int hexDigit(char c) {
     return small >= 'a' && small <= 'f' ? small - 'a' + 10 : -1;
 }
 
-/// The bytes of the text in that code page, where it has all of its characters.
+/// Returns the text's bytes in a code page, if that has all its characters.
 std::optional<std::string> encoded(std::string_view text, const CodePage& page) {
     std::string bytes;
     while (!text.empty()) {

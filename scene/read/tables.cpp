@@ -344,7 +344,7 @@ bool isAmong(std::string_view words, std::string_view word) {
 bool isSceneRoot(std::string_view name) { return isAmong("world scene xmls includes", name); }
 
 const ElementSpec* findChild(const ElementSpec& parent, std::string_view name) {
-    // The rows that may stand in each row's element, so that reading does not search them all.
+    // The rows of each element's possible children: look-ups need not search all rows.
     static const auto kChildren = [] {
         std::vector<std::vector<const ElementSpec*>> rows(std::size(kElements));
         for (std::size_t i = 0; i < rows.size(); ++i)

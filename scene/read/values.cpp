@@ -88,7 +88,7 @@ class AttributeReader {
         }
     }
 
-    /// How to write an unknown attribute that is a colour, #rrggbb or rrggbb, where the element or
+    /// Returns the fix of an unknown attribute with a colour, #rrggbb or rrggbb, if the element or
     /// its child of that name has R, G and B.
     std::optional<Message> colorAdvice(pugi::xml_attribute attribute) const {
         std::string_view digits = attribute.value();
@@ -197,7 +197,7 @@ class AttributeReader {
         if (!parsed) return false;
         entry.number = *parsed;
         if (*parsed >= row.min && *parsed <= row.max) return true;
-        // Over 0 as it must be, and smaller than can be reckoned with.
+        // Over 0 as required, but too small to compute with.
         const bool isTiny = row.min > 0 && row.max >= kHugeNumber && *parsed > 0;
         if (row.clamped || isTiny) {
             entry.number = std::fmin(std::fmax(*parsed, row.min), row.max);
@@ -272,7 +272,7 @@ Values readValues(const Document& document, pugi::xml_node element, const Elemen
                   Findings& findings, Unknown unknown) {
     Values values;
     AttributeReader reader(document, element, spec, findings);
-    // One attribute that is understood makes the others slips.
+    // With a known attribute, unknown ones are warnings.
     if (unknown == Unknown::error)
         for (const pugi::xml_attribute attribute : element.attributes())
             if (findAttribute(spec, attribute.name()) != nullptr) unknown = Unknown::warning;

@@ -18,7 +18,7 @@ bool isNameStart(char c) {
 
 bool isNameChar(char c) { return isNameStart(c) || isDigit(c) || c == '-' || c == '.'; }
 
-/// True for a declaration that names Latin-1, or one of its kin that differ in a few signs.
+/// True for a declaration of Latin-1, or of a similar encoding with a few other characters.
 bool declaresLatin1(std::string_view text) {
     const std::string head = lowerCase(text.substr(0, std::min<std::size_t>(text.find('>'), 200)));
     const std::size_t name = head.find("encoding");

@@ -73,7 +73,7 @@ void tryDescriptors(Outcomes& outcomes, int folder) {
     outcomes["eventfd"] = outcome(eventfd(0, 0));
 }
 
-/// Memory that the limits do not count, and advice that reaches beyond the process.
+/// Tries memory that the limits do not count, and madvise() with effects outside the process.
 void tryMemory(Outcomes& outcomes) {
     outcomes["mmap shared anonymous"] = mapped(MAP_SHARED | MAP_ANONYMOUS);
     outcomes["mmap growing down"] = mapped(MAP_PRIVATE | MAP_ANONYMOUS | MAP_GROWSDOWN);

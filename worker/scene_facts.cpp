@@ -5,8 +5,8 @@
 namespace farol::worker {
 namespace {
 
-/// True for an upload: it has no folder, or, beside the files of a served scene, a digest as its
-/// identity instead of a tag.
+/// True for a scene of the served folder. An upload has no folder, or, beside the files of a served
+/// scene, a digest as its identity instead of an entity tag.
 bool isServed(const render::Job& job) {
     return dynamic_cast<const scene::FolderAssets*>(job.assets.get()) != nullptr &&
            job.identity.starts_with('"');

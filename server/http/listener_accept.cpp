@@ -156,8 +156,8 @@ bool Listener::makeRoom(const std::string& network) {
     return true;
 }
 
-/// The connection of the client that has waited longest, first of those that never asked for
-/// anything, else its oldest slow body; null: none.
+/// Returns the client's connection that has waited longest without any request, else the longest
+/// waiting one, else its oldest slow body; null: none.
 Listener::Client* Listener::displaceable(const std::string& network) const {
     const Clock::time_point slow = Clock::now() - kSlowBody;
     const std::lock_guard lock(mutex_);

@@ -45,11 +45,11 @@ class FlagAdder {
 };
 
 int run(const server::ServeOptions& options) {
-    // Images are allocated by one thread and freed by another, which fragments the heaps that
-    // malloc has for each thread. Two heaps do not slow down answers from the cache.
+    // Images are allocated by one thread and freed by another, which fragments malloc's heaps of
+    // the threads. Two heaps do not slow down responses from the cache.
     ::mallopt(M_ARENA_MAX, 2);
-    // Bodies and large images go back to the system when they are freed: left to itself, malloc
-    // begins to keep blocks as large as the largest that it has seen.
+    // Bodies and large images go back to the system when they are freed. By default, malloc
+    // raises this threshold to the largest block it has freed.
     ::mallopt(M_MMAP_THRESHOLD, 1 << 20);
     try {
         return server::serve(options) == 0 ? kDone : kInternal;

@@ -6,8 +6,8 @@
 
 namespace farol::cli {
 
-/// The job of a scene or mesh file: its bytes, and the files beside it (or in `assets`, where that
-/// is not empty). Throws as readInput does.
+/// Returns the job of a scene or mesh file: its bytes, and the files beside it (or in `assets`
+/// unless that is empty). Throws as readInput does.
 render::Job openSource(const std::string& path, const std::string& assets, bool strict);
 
 /// The folder of the files that the scene names.

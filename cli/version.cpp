@@ -20,7 +20,7 @@ void addVersion(CLI::App& root, Action& action) {
     addGlSource(*command, *source);
     command->callback([&action, source] {
         action = [source](Report& report) {
-            // Closed in as the commands are, so that the layers are those that they get.
+            // In the sandbox of the other commands, to report its layers.
             return confine({}, report, [&report, source](Outputs& outputs) {
                 report.set("version", server::projectVersion());
                 report.set("renderer", render::version(*source));

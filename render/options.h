@@ -17,8 +17,8 @@ namespace farol::render {
 enum class Layer { color, depth, normal, id };
 inline constexpr EnumWords<Layer, Layer::id> kLayerWords{"color", "depth", "normal", "id"};
 
-/// Where the camera starts: as the scene says (framed where it has no camera), with a view that
-/// frames all models, or as the 2017 engine.
+/// The initial camera: the scene's (framed if it has none), a view that frames all models, or that
+/// of the 2017 engine.
 enum class CameraStart { scene, framed, engine };
 inline constexpr EnumWords<CameraStart, CameraStart::engine> kCameraStartWords{"scene", "framed",
                                                                                "engine"};

@@ -159,7 +159,7 @@ void refuseErrors(Diagnostics& diagnostics, const Job& job) {
 
 namespace {
 
-/// Adds the files that are missing too, to the errors of a document that cannot be read.
+/// Adds errors of missing files to those of an unreadable document.
 void addMissingFiles(Diagnostics& errors, const Job& job, scene::ReadOptions options,
                      const scene::Assets& assets) {
     options.leaveOut = true;

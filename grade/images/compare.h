@@ -14,10 +14,10 @@ namespace farol::grade {
 /// Levels (of 255) whose share of pixels is counted: none, rounding, drivers, filters.
 inline constexpr std::array<int, 4> kLevels{0, 2, 6, 24};
 
-/// How two pictures of one size differ, in levels 0..255 of premultiplied RGBA.
+/// The difference of two images of one size, in levels 0..255 of premultiplied RGBA.
 /// A pixel's difference is the largest over its channels; its tolerant difference is the least
-/// over the 3x3 pixels around the same place of the other picture, the larger of both directions:
-/// an edge that moved by a pixel costs nothing, a thing that only one picture shows costs all.
+/// over the 3x3 pixels around the same place of the other image, the larger of both directions:
+/// an edge that moved by a pixel costs nothing, an object in one image only costs its whole area.
 struct Comparison {
     int width = 0, height = 0;
     double meanLevels = 0.0, tolerantMeanLevels = 0.0;
@@ -31,18 +31,18 @@ struct Comparison {
         ssim{};  ///< mean, see grade/images/ssim.h; nothing for pictures below 11x11 px
 };
 
-/// Compares the pixels that the mask lets count. Throws Error image.size when the sizes differ or
-/// are zero, image.mask when no pixel counts. The second value shows where: the first picture
-/// faded to a quarter, the tolerant difference in red, eight times as strong.
+/// Compares the pixels of the mask. Throws Error image.size when the sizes differ or are zero,
+/// image.mask when the mask is empty. The second value shows the differences: the first image at a
+/// quarter of its brightness, with the tolerant difference in red, amplified eight times.
 std::pair<Comparison, image::Image> compare(const image::Image& first, const image::Image& second,
                                             const Mask& mask = {});
 
-/// As JSON, an object; PSNR is null where the pictures are equal, SSIM where they are too small.
+/// Returns a JSON object; PSNR is null for equal images, SSIM for too small ones.
 std::string toJson(const Comparison& comparison);
-/// Bounds of that document where it is read again.
+/// Limits for parsing that document.
 inline constexpr JsonLimits kComparisonJson{.bytes = 65'536};
 
-/// The rectangle that "WxH+X+Y" says, px. Throws Error option.range, which names `field`.
+/// Parses a rectangle "WxH+X+Y", px. Throws Error option.range, which names `field`.
 Rectangle readRectangle(const std::string& text, const std::string& field);
 
 /// The part that `wanted` names: "" all of it, "auto" the client area of a screenshot, else a

@@ -5,7 +5,7 @@
 #include "grade/images/mask.h"
 #include "grade/images/plane.h"
 
-/// FLIP: the difference that a person sees who switches between two pictures (Andersson,
+/// FLIP: the visible difference when switching between two images (Andersson,
 /// Nilsson, Akenine-Moeller, Oskarsson, Astrom, Fairchild: "FLIP: A Difference Evaluator for
 /// Alternating Images", HPG 2020). Colours are filtered by the eye's contrast sensitivity, compared
 /// by HyAB in Hunt-adjusted L*a*b*, and amplified where edges or points differ.

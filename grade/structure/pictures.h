@@ -18,7 +18,7 @@ class Pictures {
   public:
     Pictures(const scene::Assets& theirs, const scene::Assets& mine)
         : theirs_(theirs), mine_(mine) {}
-    /// Throws Error image.* where a file that differs cannot be decoded.
+    /// Throws Error image.* if the files differ and one cannot be decoded.
     Turn compare(const scene::Texture& theirs, const scene::Texture& mine);
     /// The same of files that a background or skybox names.
     bool isSameFile(const std::string& theirs, const std::string& mine) const;

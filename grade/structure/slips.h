@@ -44,8 +44,8 @@ bool isSameTransform(const scene::Transform& a, const scene::Transform& b);
 /// Returns the nearest round number, where the value is about one.
 double tidy(double value);
 
-/// The translate, rotate and scale that a matrix is the product of, each only where it is not the
-/// identity; nothing where the matrix shears.
+/// Decomposes a matrix into translate, rotate and scale, without identities; nothing if it
+/// shears.
 std::optional<std::vector<scene::Transform>> decomposed(const glm::dmat4& matrix);
 
 /// The matrix as one transform of that kind (the index of Transform), or nothing.

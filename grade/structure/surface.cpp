@@ -125,7 +125,7 @@ int facing(const glm::dvec3& face, const std::vector<std::optional<glm::dvec3>>&
     return along > 0.0 ? 1 : along < 0.0 ? -1 : 0;
 }
 
-/// Shares of the faces that run the other way, and whose corners have the face's own normal.
+/// Measures the shares of faces with reversed winding, and of faces with flat normals.
 void measureFaces(Surface& out, const Mesh& mine, const std::vector<Corner>& corners,
                   const std::vector<std::optional<glm::dvec3>>& wanted, bool isMirrored) {
     double faces = 0.0, reversed = 0.0, flat = 0.0;

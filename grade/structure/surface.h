@@ -18,7 +18,7 @@ struct Surface {
     double normalsSame = 0, normalsOpposite = 0;
     double normalsUntransposed = 0;  ///< transformed as directions, not by the inverse transpose
     double normalsOfFaces = 0;       ///< those of the face where the reference is smooth
-    double windingReversed = 0;      ///< triangles whose front is where the reference has its back
+    double windingReversed = 0;      ///< triangles whose front is the reference's back
     bool hasUvs = false;             ///< both have texture coordinates
     double uvSame = 0, uvUpsideDown = 0, uvMirrored = 0, uvBoth = 0, uvSwapped = 0;
 

@@ -6,7 +6,7 @@
 
 #include "generator/mesh.h"
 
-/// Small tools that every shape is made with: computed in double, stored as float.
+/// Helpers of all shapes: values are computed in double and stored as float.
 namespace farol::generator {
 
 struct SinCos {
@@ -45,7 +45,7 @@ inline double fraction(std::size_t index, std::size_t count) {
 
 class Builder {
   public:
-    /// Takes memory for so many. Throws Error limit.triangles over the bounds of a mesh.
+    /// Reserves memory. Throws Error limit.triangles over the bounds of a mesh.
     explicit Builder(std::size_t vertices = 0, std::size_t triangles = 0) {
         checkCounts(vertices, triangles);
         mesh_.positions.reserve(vertices);

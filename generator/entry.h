@@ -11,7 +11,7 @@
 #include "generator/surface.h"
 #include "scene/scene.h"
 
-/// A row of the table of shapes: all that the program knows of one.
+/// A row of the table of shapes: the program's only description of a shape.
 namespace farol::generator {
 
 using scene::ShapeCall;

@@ -22,7 +22,7 @@ struct Fineness {
 inline constexpr double kMaxDivisions = 1024;
 
 /// Divisions of a circle of that radius whose sagitta r(1 - cos(pi/n)) is at most `error`,
-/// computed without cancellation, and at least fineness.fullTurn; rounded up to the roundUpToStep.
+/// computed without cancellation, and at least fineness.fullTurn; rounded up by roundUpToStep.
 /// With fineness.balanced, of a circle that will be scaled so as to err by `error` to both sides.
 double circleDivisions(double radius, double error, const Fineness& fineness);
 
@@ -30,9 +30,9 @@ double circleDivisions(double radius, double error, const Fineness& fineness);
 /// `error` from it; as circleDivisions.
 double sphereDivisions(double radius, double error, const Fineness& fineness);
 
-/// The next of 1 2 3 4 6 8 12 16 20 24 28 32 40 48 56 64 80 ... kMaxDivisions: few levels, so that
-/// a mesh is found again while the camera moves. From 8 on they are multiples of 4: bounding boxes
-/// stay exact.
+/// Returns the next of 1 2 3 4 6 8 12 16 20 24 28 32 40 48 56 64 80 ... kMaxDivisions: few levels,
+/// so that cached meshes are reused while the camera moves. From 8 on they are multiples of 4:
+/// bounding boxes stay exact.
 double roundUpToStep(double divisions);
 
 }  // namespace farol::generator

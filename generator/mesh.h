@@ -52,7 +52,7 @@ void checkStructure(const MeshArrays& arrays, const std::string& fileName = {});
 
 /// Indexed triangles, checked. Object space, right-handed, +Y up, counter-clockwise seen from
 /// outside. A vertex is at origin() + positions()[i]: origin() is 0 but for meshes that are far
-/// from the origin for their size, whose places a float cannot resolve. normals() is empty or
+/// from the origin for their size, whose positions a float cannot resolve. normals() is empty or
 /// as long as positions() (unit length); uvs() (origin bottom left) and colors() are, too. A
 /// vertex's texture coordinates are uvOrigin() + uvs()[i]: uvOrigin() is 0 but where they are far
 /// from 0, and then whole.
@@ -75,7 +75,7 @@ class Mesh {
     const std::vector<MeshPart>& parts() const { return arrays_.parts; }
     const glm::dvec3& origin() const { return arrays_.origin; }
     const glm::dvec2& uvOrigin() const { return arrays_.uvOrigin; }
-    /// Where a vertex is, object space.
+    /// Returns the position of a vertex, object space.
     glm::dvec3 place(std::size_t vertex) const {
         return arrays_.origin + glm::dvec3(arrays_.positions[vertex]);
     }

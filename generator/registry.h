@@ -12,10 +12,10 @@
 #include "scene/files/assets.h"
 #include "scene/scene.h"
 
-/// The one door to the generator: shapes by name, meshes by source.
+/// The interface of the generator: shapes by name, meshes by source.
 namespace farol::generator {
 
-/// How a shape is written: "cone RADIUS HEIGHT [SLICES] [STACKS]".
+/// Returns the syntax of a shape: "cone RADIUS HEIGHT [SLICES] [STACKS]".
 std::string usageOf(const ShapeEntry& shape);
 
 /// All shapes, in the order of the help.
@@ -56,12 +56,12 @@ bool isAdaptive(const scene::Model& model);
 /// written (the mesh itself is then intended) or no SurfaceKind describes the shape.
 std::optional<Surface> surfaceOf(const scene::Model& model);
 
-/// Divisions of a full turn of a shape that Surface knows, in its coarser direction; 0 for other
-/// shapes.
+/// Returns the divisions of a full turn of a shape with a SurfaceKind, in its coarser direction; 0
+/// for other shapes.
 double fullTurnOf(const ShapeCall& call);
 
-/// The scale, object space, by which the mesh of a shape that Surface knows errs as far outwards as
-/// inwards (a torus: round its ring); 1 for other shapes.
+/// Returns the scale, object space, that makes the mesh of a shape with a SurfaceKind err equally
+/// outwards and inwards (a torus: around its ring); 1 for other shapes.
 glm::dvec3 balancedScale(const ShapeCall& call);
 
 /// Returns the call of an adaptive model with the coarsest divisions that keep `fineness`, rounded

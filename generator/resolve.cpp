@@ -139,7 +139,7 @@ class ModelFinder {
     /// Returns the shape of a home-made mesh file's name or comment, used if its format is unknown.
     std::optional<ShapeCall> fallbackOf(const scene::Model& model) {
         if (fileEnding(model.file) != "3d") return std::nullopt;
-        Diagnostics unheard;  // of a guess that is seldom used
+        Diagnostics unheard;  // dropped: the fallback is seldom used
         const Words* words = comment(model.file);
         const auto named = wordsOfName(model.file);
         for (const bool byComment : {true, false}) {
@@ -260,7 +260,7 @@ class ModelFinder {
     const scene::Assets& assets_;
     scene::Locator& locator_;
     Diagnostics& diagnostics_;
-    /// Generator comments by their names in lower case, made when first asked for.
+    /// Generator comments by their names in lower case, made on first use.
     std::optional<std::map<std::string, const Words*>> alike_;
 };
 

@@ -20,7 +20,7 @@ struct SurfaceKind {
     bool (*isNeeded)(const Surface& surface, double fullTurn, bool textured) = nullptr;
     /// Divisions of a full turn, in the coarser direction, of a mesh with these level arguments.
     double (*fullTurn)(const std::vector<double>& levels) = nullptr;
-    /// The scale, object space, by which that mesh errs as far outwards as inwards.
+    /// The scale, object space, that makes that mesh err equally outwards and inwards.
     glm::dvec3 (*balance)(const std::vector<double>& levels) = nullptr;
 
     bool isBall = false;      ///< with equal lengths

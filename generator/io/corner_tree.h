@@ -37,7 +37,7 @@ class CornerTree {
   private:
     struct Place {
         glm::dvec2 at;
-        std::uint32_t corners;  ///< so many are left here
+        std::uint32_t corners;  ///< number left here
         std::uint32_t leaf;
     };
     struct Node {
@@ -45,7 +45,7 @@ class CornerTree {
         std::uint32_t begin, end;  ///< places
         std::uint32_t second;      ///< the other child; the first follows its parent; 0: a leaf
         std::uint32_t parent;
-        std::uint32_t corners;  ///< so many are left below it
+        std::uint32_t corners;  ///< number left below it
     };
 
     std::uint32_t build(std::uint32_t begin, std::uint32_t end, std::uint32_t parent);

@@ -96,7 +96,7 @@ class MtlReader {
         materials_.emplace_back().name = std::string(name.substr(0, kMaxNameBytes));
     }
 
-    /// Settles the values that depend on several lines of a material.
+    /// Computes the values that depend on several lines of a material.
     void close() {
         if (materials_.empty()) return;
         scene::PartMaterial& part = materials_.back();

@@ -16,8 +16,8 @@ using FaceTriangle = std::array<std::uint32_t, 3>;
 /// more.
 void triangulate(const std::vector<glm::vec3>& corners, std::vector<FaceTriangle>& out);
 
-/// The same for places in double: as floats, relative to the first corner where the face is far
-/// away for its size.
+/// The same for positions in double: converts to float, relative to the first corner if the face is
+/// far away for its size.
 void triangulate(const std::vector<glm::dvec3>& corners, std::vector<FaceTriangle>& out);
 
 }  // namespace farol::generator::io

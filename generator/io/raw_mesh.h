@@ -11,7 +11,7 @@
 
 namespace farol::generator::io {
 
-/// A mesh as its reader found it, unchecked, with places and texture coordinates in double.
+/// A mesh as read, unchecked, with positions and texture coordinates in double.
 struct RawMesh {
     std::vector<glm::dvec3> positions;
     std::vector<glm::vec3> normals;  ///< empty: computed; invalid ones are replaced

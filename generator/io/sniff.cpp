@@ -55,8 +55,8 @@ bool isTitle(std::string_view line) {
            std::string_view("%/*!=<>'\"$&@~^").find(line[at]) != std::string_view::npos;
 }
 
-/// "v" lines of places, normals and coordinates, or faces that count from 0: no OBJ, though its
-/// words are used. Files that are named as OBJ are none of these.
+/// True for "v" lines of positions, normals and coordinates, or faces that count from 0: no OBJ,
+/// although they use its words. False for files with the ending of OBJ.
 bool isHomeMadeObj(const MeshText& text) {
     if (text.ending == "obj" || !looksLikeObj(text.bytes)) return false;
     std::string_view rest = text.bytes;
@@ -294,8 +294,8 @@ std::string_view kindOfOther(std::string_view bytes) {
     return "";
 }
 
-/// Titles and notes among the numbers ("plane", "size 2") left out; else a word before each row;
-/// else lists in another order. Nothing where none of these can be read.
+/// Reads a file without titles and notes among its numbers ("plane", "size 2"); else without a word
+/// before each row; else as lists in another order. Nothing if none of these succeeds.
 std::optional<RawMesh> readOtherwise(const MeshText& text) {
     std::vector<std::string> texts{withoutTitles(text.bytes), withoutFirstWords(text.bytes)};
     for (std::size_t i = 0; i < texts.size(); ++i) {

@@ -19,7 +19,7 @@ struct MeshText {
     std::optional<Error> notRows;    ///< why it does not
 };
 
-/// A form of mesh file: how it is recognised and read. Of the table the first that recognises a
+/// A form of mesh file: its recogniser and its reader. The first row of the table that recognises a
 /// file reads it.
 struct MeshForm {
     const char* name;
@@ -27,13 +27,13 @@ struct MeshForm {
     RawMesh (*read)(const MeshText& text);
 };
 
-/// All forms in the order in which they are asked: those that only they can be come first.
+/// Returns all forms in the order of recognition: unambiguous ones come first.
 std::span<const MeshForm> meshForms();
 
 /// The mesh of a file by the first form that recognises it. Throws Error mesh.*.
 RawMesh decodeRaw(std::string_view bytes, const std::string& fileName);
 
-/// The name of that form; empty where none recognises the file.
+/// Returns the name of that form; empty if none recognises the file.
 std::string formOf(std::string_view bytes, const std::string& fileName);
 
 }  // namespace farol::generator::io

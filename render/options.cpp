@@ -47,7 +47,7 @@ bool parseFlag(const std::string& name, const std::string& text) {
     outOfRange(name, text, "0 or 1");
 }
 
-constexpr double kFar = 1e12;  // beyond it a float of the eye-relative position says nothing
+constexpr double kFar = 1e12;  // beyond it floats cannot resolve eye-relative positions
 
 glm::dvec3 parseVector(const std::string& name, const std::string& text) {
     constexpr const char* kRange = "three numbers x,y,z from -1e12 to 1e12";

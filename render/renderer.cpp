@@ -277,7 +277,7 @@ SceneReport inspect(const Job& job) {
             throw Error(message<"asset.missing/image-file">("file"_arg = uncut(texture->path)),
                         texture->where);
         image::imageSize(*bytes, texture->path,
-                         texture->where);  // a damaged head is news to the author
+                         texture->where);  // reports a damaged head
         report.textureBytes += static_cast<std::int64_t>(bytes->size());
     }
     report.textures = static_cast<int>(textures.size());

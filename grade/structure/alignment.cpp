@@ -33,7 +33,7 @@ class Aligner {
           own_(chainAt(mine, myItem)) {
         const int theirNode = theirs.items[static_cast<std::size_t>(theirItem)].node;
         const int myNode = mine.items[static_cast<std::size_t>(myItem)].node;
-        // Groups correspond from the item upwards, unless their links say otherwise.
+        // Groups correspond from the item upwards, unless their links differ.
         const std::vector<int> a = theirs.pathTo(theirNode), b = mine.pathTo(myNode);
         for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)
             nodes_[a[a.size() - 1 - i]] = b[b.size() - 1 - i];

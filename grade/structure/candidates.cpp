@@ -22,7 +22,7 @@ bool canInvert(const glm::dmat4& m) {
     return std::isfinite(d) && std::abs(d) > 1e-18;
 }
 
-/// The other values that people write by mistake, of one transform.
+/// Returns the values of common mistakes in one transform.
 std::vector<scene::Transform> variantsOf(const scene::Transform& given) {
     std::vector<scene::Transform> out;
     const auto ofVector = [&](const glm::dvec3& v, const auto& made) {

@@ -50,7 +50,7 @@ double largest(const glm::dmat3& m) {
     return most;
 }
 
-/// The part of an axial object's matrix that says how wide it is round its axis.
+/// Returns the part of an axial object's matrix that determines its width around the axis.
 glm::dmat3 across(const glm::dmat4& m) {
     glm::dmat3 out(m);
     out[1] = glm::dvec3(0.0);

@@ -16,7 +16,7 @@ struct Likeness {
     bool isOneForm() const { return surface.isOnePlace(); }
 };
 
-/// Rotations of an untextured surface that nobody sees.
+/// Rotations that do not change an untextured surface.
 enum class Symmetry { none, axial, ball };
 Symmetry symmetryOf(const Outline::Item& item);
 

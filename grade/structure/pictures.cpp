@@ -11,8 +11,8 @@ namespace {
 
 constexpr int kSameTexelLevels = 12;  // of 255: JPEG and other formats of the same picture
 
-/// The mean difference of levels where `mine` is mirrored; a sample of rows and columns says
-/// enough.
+/// Returns the mean difference of levels to `mine`, mirrored by the flags; samples some rows and
+/// columns.
 double meanDifference(const image::Image& theirs, const image::Image& mine, bool flipX,
                       bool flipY) {
     double sum = 0.0;

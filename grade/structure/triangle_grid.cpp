@@ -43,9 +43,9 @@ glm::dvec3 nearestOf(const std::array<glm::dvec3, 3>& t, const glm::dvec3& p) {
 }
 
 constexpr double kFineDivisions = 96;  // of a full turn: facets within 0.05 % of the radius
-constexpr double kMinDivisions = 8;    // a shape with fewer is meant to have edges
+constexpr double kMinDivisions = 8;    // a shape with fewer has visible edges on purpose
 
-/// The model's mesh; of a curved shape with divisions that are more than the eye counts.
+/// Returns the model's mesh; that of a curved shape with fine divisions.
 generator::Mesh fineMesh(const scene::Model& model, const generator::Mesh& mesh,
                          const scene::Assets& assets) {
     const scene::ShapeCall& call = model.source.shape;

@@ -52,6 +52,26 @@ double acceptedQuality(const std::optional<std::string>& accept, const std::stri
     return quality;
 }
 
+Language acceptedLanguage(const std::optional<std::string>& header) {
+    Language best = Language::en;
+    double quality = 0.0;
+    const std::string text = header.value_or("");
+    for (const string_view entry : split(text, ",")) {
+        const string_view range = trimmed(entry.substr(0, entry.find(';')), kLineBlanks);
+        const std::string word = lowerCase(range.substr(0, range.find('-')));
+        const std::optional<Language> language =
+            word == "*" ? Language::en : kLanguageWords.find(word);
+        if (!language) continue;
+        const std::size_t semicolon = entry.find(';');
+        const double weight =
+            semicolon == string_view::npos ? 1.0 : qualityOf(entry.substr(semicolon + 1));
+        if (weight <= quality) continue;
+        best = *language;
+        quality = weight;
+    }
+    return best;
+}
+
 void chooseFormat(Parameters& wanted, const std::optional<std::string>& accept) {
     const image::Format asked = wanted.picture.format;
     double best = 0.0;

@@ -172,3 +172,24 @@ TEST_CASE("parameters are checked against the route's own names") {
     CHECK_THROWS_AS(wholeNumber("page", "10", 1, 9), Error);
     CHECK(wholeNumber("page", "9", 1, 9) == 9);
 }
+
+TEST_CASE("Accept-Language chooses the language of the highest quality") {
+    for (const auto& [header, expected] : std::initializer_list<std::pair<const char*, Language>>{
+             {"", Language::en},
+             {"pt", Language::pt},
+             {"pt-BR, en;q=0.8", Language::pt},
+             {"en, pt", Language::en},
+             {"de, cs;q=0.5", Language::cs},
+             {"de", Language::en},
+             {"*", Language::en},
+             {"ES-mx", Language::es},
+             {"en;q=0.3, es;q=0.7", Language::es},
+             {"cs;q=0, es;q=0", Language::en},
+             {"cs;q=0.1, es;q=0", Language::cs},
+             {"pt ; Q=0.5 , es;q=0.4", Language::pt},
+             {",;,=", Language::en},
+             {"ptx", Language::en}}) {
+        INFO(header);
+        CHECK(acceptedLanguage(header) == expected);
+    }
+}

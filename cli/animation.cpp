@@ -7,8 +7,9 @@
 #include <iostream>
 
 #include "cli/command.h"
+#include "cli/files.h"
 #include "cli/messages.h"
-#include "image/apng.h"
+#include "core/text.h"
 #include "image/format.h"
 
 namespace farol::cli {
@@ -40,27 +41,42 @@ Schedule schedule(const AnimationFlags& flags, const render::SceneReport& report
     return made;
 }
 
+std::optional<image::AnimationFormat> animationFormat(const std::string& path,
+                                                      image::Format format) {
+    const std::string ending = fileEnding(path);
+    for (std::size_t i = 0; i < image::kAnimations.size(); ++i)
+        for (const std::string_view word : split(image::kAnimations[i].endings))
+            if (word == ending) return static_cast<image::AnimationFormat>(i);
+    if (format == image::Format::png) return image::AnimationFormat::apng;
+    if (format == image::Format::webp) return image::AnimationFormat::webp;
+    return std::nullopt;
+}
+
 render::Picture renderAnimation(render::Job job, const Schedule& schedule, const std::string& path,
                                 Outputs& outputs, render::GlSource gl) {
     const bool files = framePath(path, 0) != path;
-    if (!files && job.options.format != image::Format::png)
-        throw UsageError(message<"usage/frames-format">());
+    const std::optional<image::AnimationFormat> format = animationFormat(path, job.options.format);
+    if (!files && !format) throw UsageError(message<"usage/frames-format">());
     render::Renderer renderer(gl);
-    const bool alpha = job.options.background == "transparent";
-    image::ApngWriter animation(schedule.frames, schedule.fps, alpha);
+    std::unique_ptr<image::AnimationWriter> animation;
+    if (!files)
+        animation = image::specOf(*format).write({schedule.frames, schedule.fps,
+                                                  job.options.background == "transparent",
+                                                  job.options.quality});
     render::Picture last;
     for (int i = 0; i < schedule.frames; ++i) {
         job.options.timeS = schedule.beginS + i / schedule.fps;
         image::Image image;
         last = renderer.draw(job, image);
-        if (files)
-            outputs.write(0, image::encode(image, job.options.format, job.options.quality), i);
+        if (animation)
+            animation->add(image);
         else
-            animation.add(image);
+            outputs.write(0, image::encode(image, job.options.format, job.options.quality), i);
         showProgress(i + 1, schedule.frames);
     }
-    if (!files) outputs.write(0, animation.finish());
-    last.contentType = files ? image::contentType(job.options.format) : "image/apng";
+    if (animation) outputs.write(0, animation->finish());
+    last.contentType = animation ? std::string(image::specOf(*format).mime)
+                                 : image::contentType(job.options.format);
     return last;
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "cli/confine.h"
+#include "image/animation.h"
 #include "render/renderer.h"
 
 namespace farol::cli {
@@ -26,8 +27,13 @@ struct Schedule {
 /// every moment. Throws UsageError when the loop is needed and the scene has none.
 Schedule schedule(const AnimationFlags& flags, const render::SceneReport& report, double timeS);
 
-/// Renders all frames into the first output, at `path`: an animated PNG, or, with a %d (%04d) in
-/// it, one image a frame. Shows progress on stderr where that is a terminal. Returns the last
+/// The format of an animation by the ending of its path, else by the format of its images; nothing
+/// for formats without animation.
+std::optional<image::AnimationFormat> animationFormat(const std::string& path,
+                                                      image::Format format);
+
+/// Renders all frames into the first output, at `path`: one animation, or, with a %d (%04d) in it,
+/// one image a frame. Shows progress on stderr where that is a terminal. Returns the last
 /// image.
 render::Picture renderAnimation(render::Job job, const Schedule& schedule, const std::string& path,
                                 Outputs& outputs, render::GlSource gl);

@@ -75,7 +75,8 @@ inline constexpr MessageRow kCliMessages[] = {
      "{count} frames; expected at most {max}; give --frames or a lower --fps",
      {"20000", "10000"}},
     {"usage/frames-format",
-     "an animation needs a PNG output, or an output name with %d for numbered images"},
+     "an animation needs an output name that ends with .png, .webp or .gif, or one with %d for "
+     "numbered images"},
     {"usage/frames-loop",
      "the scene has no loop shorter than an hour; give both --frames and --fps"},
     {"usage/frames-still", "nothing moves in this scene; give both --frames and --fps, or neither"},

@@ -39,6 +39,9 @@ render::PictureOptions pictureOptions(const Flags& flags) {
                 render::applyOption(options, "format", std::string(format.name));
                 known = true;
             }
+    for (const image::AnimationSpec& format : image::kAnimations)
+        for (const std::string_view word : split(format.endings))
+            known = known || (flags.animation.isAnyGiven() && ending == word);
     for (const auto& [name, value] : flags.picture) {
         render::applyOption(options, name, value);
         known = known || name == "format";
@@ -143,7 +146,8 @@ void addRender(CLI::App& root, Action& action) {
     command->add_flag("-v,--verbose", flags->verbose, "shows information beside warnings");
     CLI::Option* frames = command->add_option(
         "--frames", flags->animation.frames,
-        "renders an animation of that many frames; they make one loop unless --fps is given");
+        "renders an animation (.png, .webp, .gif) of that many frames; they make one loop unless "
+        "--fps is given");
     CLI::Option* fps =
         command->add_option("--fps", flags->animation.fps,
                             "frames a second; without --frames as many as make one loop");

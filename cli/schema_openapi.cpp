@@ -80,11 +80,13 @@ Section turntable() {
             text += referenceTo(option.name);
             continue;
         }
-        std::vector<std::string> words{"apng"};
+        std::vector<std::string> words;
+        for (const image::AnimationSpec& animation : image::kAnimations)
+            words.emplace_back(animation.name);
         words.insert(words.end(), option.words.begin(), option.words.end());
         text +=
             "- name: format\n  in: query\n"
-            "  description: \"apng, or of each picture of a multipart answer.\"\n"
+            "  description: \"of one animation, or of each image of a multipart answer.\"\n"
             "  schema: { type: string, enum: " +
             listOf(words) + " }\n";
     }

@@ -14,7 +14,10 @@ std::string encode(const Image& image, Format format, int quality) {
 std::string contentType(Format format) { return std::string(specOf(format).mime); }
 
 bool hasSignature(std::string_view bytes, Format format) {
-    const std::string_view signature = specOf(format).signature;
+    return matches(bytes, specOf(format).signature);
+}
+
+bool matches(std::string_view bytes, std::string_view signature) {
     return bytes.size() >= signature.size() &&
            std::equal(signature.begin(), signature.end(), bytes.begin(),
                       [](char wanted, char byte) { return wanted == '?' || wanted == byte; });

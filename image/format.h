@@ -54,6 +54,8 @@ constexpr const FormatSpec& specOf(Format format) {
 std::string encode(const Image& image, Format format, int quality);
 /// "image/png", "image/jpeg", "image/webp".
 std::string contentType(Format format);
+/// Whether `bytes` begin with a signature, in which '?' is any byte.
+bool matches(std::string_view bytes, std::string_view signature);
 /// Whether `bytes` begin as a file of the format does.
 bool hasSignature(std::string_view bytes, Format format);
 /// Joins the words of one column of kFormats: ".png, .jpg, .jpeg or .webp" of the endings with ",

@@ -31,7 +31,7 @@ std::string_view behindPixels(std::string_view bytes) {
     return behind;
 }
 
-struct Source {
+struct PngSource {
     std::string_view rest;
     std::size_t behindPixels;     ///< bytes behind the last IDAT chunk, which are skipped
     bool isComplete = false;      ///< all pixels are decoded
@@ -42,7 +42,7 @@ struct Source {
 constexpr std::size_t kMaxAfterPixels = 64 * 1024;
 
 void readBytes(png_structp png, png_bytep into, std::size_t count) {
-    Source& source = *static_cast<Source*>(png_get_io_ptr(png));
+    PngSource& source = *static_cast<PngSource*>(png_get_io_ptr(png));
     if (count > source.rest.size()) throw std::runtime_error("the file is cut off");
     if (source.isComplete && source.rest.size() > source.behindPixels &&
         (source.afterPixels += count) > kMaxAfterPixels)
@@ -52,7 +52,7 @@ void readBytes(png_structp png, png_bytep into, std::size_t count) {
 }
 
 struct Rows {
-    Source* source;
+    PngSource* source;
     std::uint64_t left;
 };
 
@@ -86,7 +86,7 @@ struct Reader {
     Reader(const Reader&) = delete;
     Reader& operator=(const Reader&) = delete;
 
-    Source source;
+    PngSource source;
     png_structp png = nullptr;
     png_infop info = nullptr;
 };

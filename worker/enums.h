@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/error.h"
+#include "image/animation.h"
 #include "image/format.h"
 #include "render/options.h"
 #include "scene/scene.h"
@@ -19,6 +20,7 @@ constexpr Specular lastOf(Specular) { return Specular::separate; }
 
 namespace farol::image {
 constexpr Format lastOf(Format) { return kLastFormat; }
+constexpr AnimationFormat lastOf(AnimationFormat) { return kLastAnimation; }
 }  // namespace farol::image
 
 namespace farol::render {

@@ -95,8 +95,11 @@ std::uint64_t pixelsOf(const ImageBounds& bounds) {
 }
 
 std::uint64_t maxImageBytes(image::Format format, std::uint64_t pixels) {
-    return kImageHead + static_cast<std::uint64_t>(static_cast<double>(pixels) *
-                                                   image::specOf(format).maxBytesPerPixel);
+    return maxImageBytes(image::specOf(format).maxBytesPerPixel, pixels);
+}
+
+std::uint64_t maxImageBytes(double maxBytesPerPixel, std::uint64_t pixels) {
+    return kImageHead + static_cast<std::uint64_t>(static_cast<double>(pixels) * maxBytesPerPixel);
 }
 
 ImageBounds imageBoundsOf(const render::PictureOptions& options) {

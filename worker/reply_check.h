@@ -47,6 +47,7 @@ std::uint64_t pixelsOf(const ImageBounds& bounds);
 
 /// Returns the bytes of the largest encoded image of this many pixels.
 std::uint64_t maxImageBytes(image::Format format, std::uint64_t pixels);
+std::uint64_t maxImageBytes(double maxBytesPerPixel, std::uint64_t pixels);
 
 /// All but the format of the bytes and the content type.
 void checkPicture(const render::Picture& picture, const ImageBounds& bounds);

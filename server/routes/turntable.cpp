@@ -14,19 +14,24 @@ namespace {
 constexpr int kMaxFrames = 120;
 constexpr std::int64_t kMaxTurnPixels = 33'554'432;
 
-/// Reads the form from the query and removes `format=apng`, which only this route has.
-worker::TurntableTask::Form formOf(http::Fields& query, const std::optional<std::string>& accept) {
-    using Form = worker::TurntableTask::Form;
+using Animation = std::optional<image::AnimationFormat>;
+
+/// Reads the format of an animation from the query and removes it, since other routes have none.
+/// Returns nothing where each frame is an image.
+Animation animationOf(http::Fields& query, const std::optional<std::string>& accept) {
     const auto format = std::find_if(query.begin(), query.end(),
                                      [](const auto& one) { return one.first == "format"; });
     if (format == query.end())
         return acceptedQuality(accept, "image/apng") >=
                        acceptedQuality(accept, "multipart/x-mixed-replace")
-                   ? Form::apng
-                   : Form::mixed;
-    if (format->second != "apng") return Form::mixed;
-    query.erase(format);
-    return Form::apng;
+                   ? Animation(image::AnimationFormat::apng)
+                   : Animation();
+    for (std::size_t i = 0; i < image::kAnimations.size(); ++i) {
+        if (image::kAnimations[i].name != format->second) continue;
+        query.erase(format);
+        return static_cast<image::AnimationFormat>(i);
+    }
+    return {};
 }
 
 }  // namespace
@@ -35,8 +40,7 @@ http::Response getTurntable(Context& context, const Call& call) {
     http::Fields query = call.request.query;
     const auto accept = call.request.header("accept");
     worker::TurntableTask::Request turn;
-    turn.form = formOf(query, accept);
-    const bool isApng = turn.form == worker::TurntableTask::Form::apng;
+    turn.animation = animationOf(query, accept);
     const http::Fields preset{{"width", "320"}, {"height", "240"}, {"format", "jpeg"}};
     const Parameters wanted =
         readParameters(query, {true, true, {"frames", "fps", "onerror"}, preset});
@@ -50,7 +54,9 @@ http::Response getTurntable(Context& context, const Call& call) {
         throw Error(
             message<"option.range/frames">("value"_arg = pixels, "max"_arg = kMaxTurnPixels), {},
             "frames");
-    const std::string type = isApng ? "image/apng" : "multipart/x-mixed-replace";
+    const std::string type(turn.animation ? image::specOf(*turn.animation).mime
+                                          : "multipart/x-mixed-replace");
+    const bool isApng = turn.animation == image::AnimationFormat::apng;
     if (acceptedQuality(accept, type) <= 0.0 &&
         (!isApng || acceptedQuality(accept, "image/png") <= 0.0))
         throw Error(message<"http.not-acceptable">("known"_arg = type));

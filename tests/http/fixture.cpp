@@ -56,8 +56,8 @@ FakeBackend::FakeBackend() {
     on<TurntableTask>([this](const TurntableTask::Request& request) {
         ++renders;
         return pictureOf(std::to_string(request.frames) + " pictures of " + request.job.name,
-                         request.form == TurntableTask::Form::apng
-                             ? "image/apng"
+                         request.animation
+                             ? std::string(farol::image::specOf(*request.animation).mime)
                              : "multipart/x-mixed-replace; boundary=f");
     });
     on<NoticeTask>([](const NoticeTask::Request& request) {

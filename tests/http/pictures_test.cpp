@@ -71,13 +71,15 @@ TEST_CASE("a turntable is an animated PNG or its pictures one by one") {
     CHECK(typeOf("", "multipart/x-mixed-replace").rfind("multipart/", 0) == 0);
     CHECK(typeOf("?format=webp", "*/*").rfind("multipart/", 0) == 0);
     CHECK(typeOf("?format=apng", "image/png") == "image/apng");
+    CHECK(typeOf("?format=gif", "image/gif") == "image/gif");
+    CHECK(typeOf("?format=animated-webp", "image/*") == "image/webp");
     CHECK(get(server.port(), target + "?frames=9").body == "9 pictures of torch.xml");
     const std::string tag = get(server.port(), target).header("etag");
     CHECK(get(server.port(), target + "?frames=23").header("etag") != tag);
     const int renders = server.backend.renders;
     CHECK(get(server.port(), target, {{"If-None-Match", tag}}).status == 304);
     CHECK(server.backend.renders == renders);
-    for (const char* bad : {"?frames=1", "?frames=121", "?frames=x", "?fps=0", "?format=gif",
+    for (const char* bad : {"?frames=1", "?frames=121", "?frames=x", "?fps=0", "?format=bmp",
                             "?frames=120&width=1024&height=1024"})
         CHECK(get(server.port(), target + bad).status == 400);
     CHECK(get(server.port(), target, {{"Accept", "text/html"}}).status == 406);

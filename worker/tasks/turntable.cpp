@@ -3,7 +3,6 @@
 #include <glm/gtc/constants.hpp>
 #include <glm/gtx/rotate_vector.hpp>
 
-#include "image/apng.h"
 #include "render/plan/cost.h"
 #include "worker/scene_facts.h"
 #include "worker/state.h"
@@ -35,27 +34,29 @@ void appendPart(std::string& body, const render::Picture& picture) {
 }  // namespace
 
 render::Picture TurntableTask::run(const Request& request, WorkerState& state) {
-    const bool isApng = request.form == Form::apng;
     render::Job job = request.job;
-    image::ApngWriter animation(request.frames, request.fps,
-                                job.options.background == "transparent");
+    std::unique_ptr<image::AnimationWriter> animation;
+    if (request.animation)
+        animation = image::specOf(*request.animation)
+                        .write({request.frames, request.fps,
+                                job.options.background == "transparent", job.options.quality});
     render::Picture all;
     std::string body;
     state.renderer.budget().expectFrames(request.frames);
     for (int i = 0; i < request.frames; ++i) {
         if (i > 0) turnEye(job.options, all.camera, glm::two_pi<double>() * i / request.frames);
         render::Picture frame;
-        if (isApng) {
+        if (animation) {
             image::Image image;
             frame = state.renderer.draw(job, image);
-            animation.add(image);
+            animation->add(image);
         } else {
             frame = state.renderer.render(job);
             appendPart(body, frame);
         }
         if (i == 0) all = std::move(frame);
     }
-    all.bytes = isApng ? animation.finish() : body + "--" + kFrameBoundary + "--\r\n";
+    all.bytes = animation ? animation->finish() : body + "--" + kFrameBoundary + "--\r\n";
     return all;
 }
 
@@ -63,21 +64,24 @@ JobFacts TurntableTask::factsOf(const Request& request) { return worker::factsOf
 
 TurntableTask::Bounds TurntableTask::boundsOf(const Request& request) {
     render::PictureOptions options = request.job.options;
-    if (request.form == Form::apng) options.format = image::Format::png;
-    Bounds bounds{imageBoundsOf(options), request.form};
+    Bounds bounds{imageBoundsOf(options), request.animation};
     bounds.bytes -= bounds.imageBytes;
+    if (request.animation)
+        bounds.imageBytes =
+            maxImageBytes(image::specOf(*request.animation).maxBytesPerPixel, pixelsOf(bounds));
     bounds.imageBytes *= static_cast<std::uint64_t>(request.frames);
     bounds.bytes += bounds.imageBytes;
     return bounds;
 }
 
 void TurntableTask::accept(Reply& reply, const Bounds& bounds) {
-    if (bounds.form == Form::apng) {
-        acceptImage(reply, bounds);
-        reply.contentType = "image/apng";
+    checkPicture(reply, bounds);
+    if (bounds.animation) {
+        const image::AnimationSpec& format = image::specOf(*bounds.animation);
+        require(image::matches(reply.bytes, format.signature), "the format of an image");
+        reply.contentType = format.mime;
         return;
     }
-    checkPicture(reply, bounds);
     require(reply.bytes.starts_with(std::string("--") + kFrameBoundary + "\r\n"),
             "the format of an image");
     reply.contentType = std::string("multipart/x-mixed-replace; boundary=") + kFrameBoundary;

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <optional>
+
+#include "image/animation.h"
 #include "worker/reply_check.h"
 
 namespace farol::worker {
@@ -9,20 +12,16 @@ inline constexpr const char* kFrameBoundary = "farol-frame";
 /// Renders a turntable: the eye moves once around the target, starting at the job's camera.
 struct TurntableTask : TaskTraits {
     static constexpr const char* kName = "turntable";
-    enum class Form {
-        mixed,  ///< multipart/x-mixed-replace, parts between kFrameBoundary
-        apng    ///< one animated PNG
-    };
-    friend constexpr Form lastOf(Form) { return Form::apng; }
     struct Request {
         render::Job job;
         int frames = 24;
         double fps = 12.0;
-        Form form = Form::mixed;
+        /// One animation; empty: multipart/x-mixed-replace, parts between kFrameBoundary.
+        std::optional<image::AnimationFormat> animation;
     };
     using Reply = render::Picture;  ///< all frames in one body; facts and times of the first
     struct Bounds : ImageBounds {
-        Form form = Form::mixed;
+        std::optional<image::AnimationFormat> animation;
     };
 
     static Reply run(const Request& request, WorkerState& state);

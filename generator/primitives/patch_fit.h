@@ -25,10 +25,10 @@ struct PatchGrid {
 /// collapsed edge are left out.
 void addGrid(Builder& builder, const PatchGrid& grid);
 
-/// The grids of patches whose vertices stand out of the surface by half of what their facets fall
-/// short of it. Makes `levels` finer until no middle of an edge, of this size and shape, is farther
-/// from the surface than fineness.error. Vertices at one place are moved alike. Returns nothing
-/// where that takes more than half a million triangles.
+/// Returns grids of patches whose vertices are offset outwards by half of their facets' sagitta.
+/// Refines `levels` until no middle of an edge is farther than fineness.error from the surface.
+/// Vertices at the same position get the same offset. Returns nothing if that takes more than half
+/// a million triangles.
 std::vector<PatchGrid> fittedGrids(const std::vector<BezierPatch>& patches,
                                    const Fineness& fineness, PatchLevels& levels);
 

@@ -14,10 +14,10 @@ using glm::dvec3;
 
 constexpr std::size_t kSteps = 4;  // of the places at which a patch is measured
 constexpr std::size_t kSamples = (kSteps + 1) * (kSteps + 1);
-/// What lies between the measured places, and terms of third order.
+/// Margin for points between the samples, and for terms of third order.
 constexpr double kLevelMargin = 0.9;
-/// Of the divisions that shading needs, so many do where facets lie on both sides of the surface
-/// and half as far from it.
+/// Share of the divisions for shading that suffices where facets lie on both sides of the surface,
+/// half as far from it.
 constexpr double kCloser = 0.7;
 /// Divisions by the root of the change of the normal's rate: interpolated normals are then off by
 /// at most 0.0023 radians at 48 of a full turn, 2 levels in a highlight of shininess 36 to 50.
@@ -60,7 +60,7 @@ double errorOf(const Bends& bends, double h, double k, const Fineness& fineness)
     return worst;
 }
 
-/// What of `second` is across the edge along `first`, in the surface.
+/// Returns the length of `second` across `first`, in the surface.
 double across(const dvec3& first, const dvec3& second, const dvec3& normal) {
     const dvec3 side = glm::cross(normal, first);
     const double length = glm::length(side);

@@ -186,8 +186,8 @@ void Painter::State::prepareTextures(const FramePlan& plan, const OpenTexture& o
     loadTextures(missing, open, {onReserved, [&] { compileAhead(plan); }, onDecoded}, facts);
 }
 
-/// Makes the GL compile its code for this frame, by draws of which no pixel is let through: the
-/// code depends on programs, textures and target, not on what is in them.
+/// Makes the GL compile its code for this frame, by draw calls whose pixels are all scissored: the
+/// code depends on programs, textures and target, not on their content.
 void Painter::State::compileAhead(const FramePlan& plan) {
     std::set<std::pair<const LinkedProgram*, GLuint>> done;
     api.Enable(GL_SCISSOR_TEST);
@@ -251,8 +251,8 @@ void Painter::State::setLights(const DrawItem& item, int count, const LinkedProg
     if (program.lightCount >= 0) api.Uniform1i(program.lightCount, count);
 }
 
-/// Moves what is drawn behind what lies in its plane: by what snapping along either axis, of either
-/// one's vertices, and rounding can move them.
+/// Moves the next draws behind others in their plane, by `rank` steps. A step is the most that
+/// vertex snapping along an axis, of either draw, and rounding change the depth.
 void Painter::State::setDepthRank(int rank) {
     if (rank == 0) return api.Disable(GL_POLYGON_OFFSET_FILL);
     const auto steps = static_cast<float>(-rank);  // smaller is farther
@@ -411,7 +411,7 @@ Target::Resolver Painter::State::resolver(int samples) {
     return {programs.get(key).program.name(), emptyArray.name()};
 }
 
-/// Binds the pass's target, made anew where the last pass had another.
+/// Binds the pass's target; creates it if the last pass had another format.
 void Painter::State::begin(const FramePlan& plan, const Pass& pass) {
     const PassTarget& wanted = pass.target;
     const glm::ivec2 whole = plan.view.size * wanted.scale;
@@ -451,7 +451,7 @@ void Painter::State::drawPass(const FramePlan& plan, const Pass& pass, int& draw
     api.Enable(GL_DEPTH_TEST);
 }
 
-/// Reads what a pass has drawn: the image, or a part of the mean of its band of rows.
+/// Reads back the result of a pass: the image, or a part of the mean of its band of rows.
 void Painter::State::read(const FramePlan& plan, std::size_t pass, image::Image& image) {
     const PassTarget& drawn = plan.passes[pass].target;
     target->resolve(resolver(drawn.samples));

@@ -16,7 +16,7 @@ enum class Shaders { model, line, window };
 struct ProgramKey {
     Shaders shaders = Shaders::model;
     FeatureSet features;
-    int count = 0;                      ///< of what a counted feature counts
+    int count = 0;                      ///< of lights (lightCount) or samples (resolve)
     std::string_view surfaceKind = {};  ///< generator::SurfaceKind::glsl
     auto operator<=>(const ProgramKey&) const = default;
 };

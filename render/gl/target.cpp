@@ -22,7 +22,7 @@ void attach(const Api& api, GLenum point, const Renderbuffer& buffer) {
 
 void check(const Api& api) {
     if (api.CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE) return;
-    // Every GL 3.0 takes these formats, and sizes are bounded before: what is wanting is memory.
+    // Every GL 3.0 supports these formats, and sizes are bounded before: the cause is memory.
     throw std::bad_alloc();
 }
 

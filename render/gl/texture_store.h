@@ -29,9 +29,9 @@ class TextureStore {
     /// Memory and filters for one that is not here and no cube map, before its texels are known;
     /// for the size that is left of `width` x `height` within the GL's.
     Reserved reserve(const TextureRef& ref, int width, int height);
-    /// Uploads one that is not here into what was reserved for it, if it was. Throws where
-    /// the GL refuses it. The `keep`
-    /// used last stay, whatever they take.
+    /// Uploads a texture that is not in the store, into `reserved` if that holds one. Never
+    /// evicts the `keep` used last, even over the bound of bytes. Throws std::bad_alloc or
+    /// std::runtime_error where the GL refuses it.
     const Entry& put(const TextureRef& ref, Reserved reserved, TextureLevels levels,
                      std::size_t keep);
 

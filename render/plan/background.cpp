@@ -78,7 +78,7 @@ Background chooseBackground(const scene::Scene& scene, const PictureOptions& opt
     } else if (const auto color = parseColor(text)) {
         chosen.color = *color;
     } else {
-        Diagnostics ignored;  // where the picture was found is no news to who named it just now
+        Diagnostics ignored;  // the request names the file: its location needs no finding
         const auto path = scene::locate(assets, text, {}, ignored, scene.document);
         if (!path)
             throw Error(message<"option.range/background">("value"_arg = text), {}, "background");

@@ -73,8 +73,8 @@ std::optional<BallCap> ballCap(const generator::Surface& surface, const glm::dma
     const double height = (glm::dot(cap.eye, cap.eye) - 1.0) / (glm::length(cap.eye) + 1.0);
     if (!(std::abs(height) > kLowest)) return std::nullopt;
 
-    // What is seen of an error grows by the secant's square towards the corners; stretched balls
-    // err by the largest and are as near as the smallest of their half axes.
+    // The projected error grows by the secant's square towards the corners; stretched balls err by
+    // the largest of their half axes and are as near as the smallest.
     const double secant2 = 1.0 + glm::dot(view.tanHalfFov, view.tanHalfFov);
     const double stretch = 1.0 / volume;
     const double last =

@@ -16,8 +16,8 @@ struct BallCap {
     double errorPx = 0.0;  ///< more than asked for where the rings are capped
 };
 
-/// Nothing for surfaces that are no balls, for flattened ones, and where the viewer is so close
-/// that doubles do not tell its height. `worldFromObject` places the ball's own units times
+/// Returns nothing for surfaces that are no balls, for flattened ones, and if the viewer is so
+/// close that doubles cannot resolve its height. `worldFromObject` places the ball's units times
 /// Surface::lengths; colours and texture coordinates are left to the surface.
 std::optional<BallCap> ballCap(const generator::Surface& surface, const glm::dmat4& worldFromObject,
                                const ViewTransform& view, double errorPx);

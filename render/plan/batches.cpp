@@ -93,7 +93,7 @@ class Arranger {
     }
 
     /// Margins: two pixels for snapped vertices, passes, points and lines; a quarter of its depth
-    /// for what a narrow triangle's plane may err by between its corners.
+    /// for the error of a narrow triangle's plane between its corners.
     bool findExtent(std::uint32_t index) {
         const DrawItem& item = items_[index];
         const glm::dmat4 viewFromObject(item.viewFromObject);
@@ -125,7 +125,7 @@ class Arranger {
                 at(rect.max.x, view_.size.x), at(rect.max.y, view_.size.y)};
     }
 
-    /// Calls `visit` until it says false.
+    /// Calls `visit` until it returns false.
     template <typename Visit>
     void forTiles(const PixelRect& rect, const Visit& visit) {
         const glm::ivec4 span = tilesOf(rect);

@@ -31,7 +31,7 @@ scene::Camera framing(const Ball& ball, double aspect) {
     return camera;
 }
 
-/// Puts near and far close round the ball as seen from the eye, where nobody gave them.
+/// Fits the near and far planes to the ball, unless the options set them.
 void fitDepth(scene::Camera& camera, const Ball& ball, const PictureOptions& options) {
     const double distance = glm::length(camera.eye - ball.center);
     camera.far = options.far.value_or(distance + 2.0 * ball.radius);
@@ -49,7 +49,7 @@ glm::dmat3 rotationOf(const scene::Camera& camera) {
         up = along.x <= along.y && along.x <= along.z ? glm::dvec3(1, 0, 0)
              : along.z <= along.y                     ? glm::dvec3(0, 0, 1)
                                                       : glm::dvec3(0, 1, 0);
-        // Straight up or down: -Z up is what a map shows.
+        // Straight up or down: -Z is up, as on a map.
         if (along.y > along.x && along.y > along.z) up = glm::dvec3(0, 0, -1);
     }
     const glm::dvec3 right = glm::normalize(glm::cross(forward, up));

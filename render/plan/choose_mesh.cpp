@@ -9,7 +9,7 @@
 namespace farol::render {
 namespace {
 
-/// Vertices of a frame that are placed in double; what is over is drawn as it is.
+/// Most vertices of a frame that are placed in double; further meshes are drawn in float.
 constexpr std::size_t kMaxNearVertices = 4'000'000;
 /// Error up to which pixels follow their rays: a coarser mesh of a thin ring is beside its surface.
 constexpr double kMostFollowedPx = 16.0;

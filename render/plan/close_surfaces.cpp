@@ -7,7 +7,7 @@ namespace farol::render {
 namespace {
 
 constexpr std::size_t kMaxSurfaces = 256;
-constexpr std::size_t kPoints = 64;  // of a mesh that are looked at
+constexpr std::size_t kPoints = 64;  // most samples of a mesh
 constexpr double kAlike = 0.1, kClose = 0.03, kSame = 1e-7;
 
 struct Seen {

@@ -8,7 +8,7 @@
 #include "render/plan/frame_plan.h"
 
 /// Faces of different models that lie in one plane: roads on grass, decals, labels on boxes. The
-/// first of the document wins, which their depths alone cannot tell once they are rounded.
+/// first of the document wins; their rounded depths alone cannot decide that.
 namespace farol::render {
 
 /// The flat parts of a mesh that are at least 1/64 of its area; none of a mesh of more than 100,000

@@ -26,11 +26,11 @@ class CostBudget {
     /// 0: no bound.
     explicit CostBudget(double coreSeconds) : left_(coreSeconds), whole_(coreSeconds) {}
 
-    /// So many frames like the next one will follow it: the next one is refused where all together
-    /// exceed the budget.
+    /// Announces `frames` frames like the next one: the next one is refused if all together exceed
+    /// the budget.
     void expectFrames(int frames) { frames_ = frames; }
-    /// Counts a frame before it is drawn. Throws Error limit.cost, whose message names what to
-    /// lower.
+    /// Counts a frame before it is drawn. Throws Error limit.cost, whose message names the options
+    /// to lower.
     void spend(const FramePlan& plan);
     /// Counts work on images that is no frame. Throws Error limit.cost; `work` names it:
     /// "comparing images of 4000 x 4000 px".

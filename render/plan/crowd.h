@@ -6,13 +6,13 @@
 
 #include "render/plan/frame_plan.h"
 
-/// What keeps the cost of a frame within its pixels, however many models stand in it.
+/// Bounds the cost of a frame by its pixels, for any number of models.
 namespace farol::render {
 
-/// What a frame gives up because it holds more than its pixels can show.
+/// Reductions of a frame that holds more detail than its pixels can show.
 struct Crowd {
-    double coarsening = 1.0;   ///< the error of open shapes is so many times what was asked for
-    bool isOneSample = false;  ///< one sample a pixel where nobody chose their number
+    double coarsening = 1.0;   ///< factor of the requested error of adaptive shapes
+    bool isOneSample = false;  ///< one sample a pixel, unless their number is set
 };
 
 /// Coarsest that a crowd gets: beyond it shapes are as coarse as they come.

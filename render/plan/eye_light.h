@@ -17,8 +17,8 @@ struct EyeLight {
     bool operator==(const EyeLight&) const = default;
 };
 
-/// A placed light for the shaders, with its colours at a time. Places beyond 1e18 are brought to
-/// there, along their direction: squares of what is farther are no floats.
+/// Returns a placed light for the shaders, with its colours at a time. Moves places beyond 1e18 to
+/// that distance, along their direction: squares of larger distances overflow float.
 EyeLight eyeLight(const PlacedLight& placed, const ViewTransform& view, double timeS);
 
 }  // namespace farol::render

@@ -11,7 +11,7 @@ enum class Feature : std::uint8_t {
     layerId,
     layerNormal,
     layerDepth,
-    // Light: how it is worked out, and what of it there is.
+    // Lighting: where it is computed, and which terms it has.
     lightCount,  ///< counted; every model's shader has it
     unlit,
     chess,
@@ -86,7 +86,7 @@ class FeatureSet {
 };
 static_assert(kFeatures <= 64);
 
-/// Any of them: lights are looked at.
+/// Features of shading models that use lights.
 inline constexpr FeatureSet kLitFeatures{Feature::flat, Feature::gouraud, Feature::phong};
 
 }  // namespace farol::render

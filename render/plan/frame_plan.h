@@ -18,7 +18,7 @@
 #include "scene/scene.h"
 
 /// The passes of a frame and the tables that they draw from, decided before any GL. Matrices are
-/// composed in double; what stands here in float is relative to the eye.
+/// composed in double; floats here are relative to the eye.
 namespace farol::render {
 
 struct DrawItem {
@@ -42,7 +42,7 @@ struct DrawItem {
     bool colored = false;                      ///< by the mesh's own colours
     std::size_t firstIndex = 0, indices = 0;   ///< the part of the mesh that is drawn
     int lightSet = 0;                          ///< index into FramePlan::lightSets
-    int depthRank = 0;                         ///< so many steps behind (coplanar.h)
+    int depthRank = 0;                         ///< steps of depth offset away (coplanar.h)
     std::uint32_t id = 0;                      ///< 1.. in document order, for layer=id
 };
 
@@ -89,7 +89,7 @@ enum class PassOutput {
 
 /// Where a pass draws. Passes in a row with the same target share its pixels.
 struct PassTarget {
-    int scale = 1;    ///< the target is so many times as wide and high as the rows of the image
+    int scale = 1;    ///< size of the target by that of the rows of the image, along each axis
     int samples = 1;  ///< of its pixel; 1, or the size of one of GlFacts::samplePatterns
     int firstRow = 0, rows = 0;           ///< of the image, from its top
     std::optional<glm::vec4> clearColor;  ///< none: every sample is drawn, or kept
@@ -116,7 +116,7 @@ struct Pass {
 /// Choices that passes and features follow from.
 struct FrameStyle {
     Layer layer = Layer::color;
-    int samples = 1;  ///< at least so many
+    int samples = 1;  ///< lower bound
     scene::Shading shading = scene::Shading::phong;
     bool lit = true;  ///< false: materials show as their plain diffuse colour
     scene::Viewer viewer = scene::Viewer::infinite;

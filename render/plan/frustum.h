@@ -37,11 +37,11 @@ class Frustum {
     double slack_;
 };
 
-/// The share of a point's distance by which it may be elsewhere than computed in double: what
-/// single precision loses on the way to the picture, and by what balanced meshes stand out of their
-/// surface: errorPx seen at that distance, taken twice.
+/// Returns the bound of a point's position error as a share of its distance: the rounding of single
+/// precision on the way to the image, and the offset of balanced meshes from their surface, which
+/// is twice errorPx at that distance.
 double cullingSlack(const ViewTransform& view, double errorPx);
-/// Likewise in the picture; passes of antialiasing, points and lines reach past their geometry too.
+/// The same bound in the image, px; includes the reach of antialiasing, points and lines.
 double cullingMarginPx(double errorPx);
 
 /// An axis-aligned rectangle of the picture, px from its lower left.
@@ -61,8 +61,8 @@ double coveredArea(const std::optional<PixelRect>& rect, const glm::ivec2& size)
 bool isOutside(const Box& box, const glm::dmat4& viewFromObject, const ViewTransform& view,
                double errorPx);
 
-/// True if no sample lies in the rectangle, widened by what the rasteriser's snapping of vertices
-/// (GlFacts::snapPx) and rounding to float can move an edge: nothing in it can be seen.
+/// True if no sample lies in the rectangle, widened by the most that the rasteriser's snapping of
+/// vertices (GlFacts::snapPx) and rounding to float move an edge: nothing in it can be visible.
 bool missesSamples(const PixelRect& rect, const SamplePattern& samples, double snapPx);
 
 }  // namespace farol::render

@@ -40,7 +40,7 @@ struct PlacedCurve {
     std::vector<glm::dvec3> points;
 };
 
-/// All that a scene holds at one time, whatever the camera: made once for all frames of it.
+/// The content of a scene at one time, for any camera: made once for all its frames.
 struct InstanceList {
     std::vector<Instance> instances;  ///< in document order
     BoundsTree tree;                  ///< of the instances, world space; those of no extent are out
@@ -56,7 +56,7 @@ struct InstanceList {
     bool dressed = false;  ///< a mesh has colours or materials that are drawn
 };
 
-/// Bounds on what one frame may hold.
+/// Limits of one frame.
 using scene::kMaxInstances;
 inline constexpr std::size_t kMaxLights = 512;
 

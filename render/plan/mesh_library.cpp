@@ -80,7 +80,7 @@ std::shared_ptr<const MeshData> MeshLibrary::refined(std::uint64_t coarse,
                                                      const scene::Model& model,
                                                      const scene::Assets& assets,
                                                      const generator::Fineness& fineness) {
-    // Many wishes end in the same divisions: one mesh, so that its models can share a draw call.
+    // Different fineness may give the same divisions: one mesh, which models draw in one call.
     if (auto adapted = generator::adapt(model, assets, fineness)) {
         Key made{{}, coarse};
         for (const std::size_t level : adapted->divisions)

@@ -38,7 +38,7 @@ struct FlatFace {
     std::array<glm::dvec3, 4> corners;
 };
 
-/// A mesh with what the plan asks of it. `id` is unique in the process.
+/// A mesh with the derived data that the plan needs. `id` is unique in the process.
 struct MeshData {
     std::uint64_t id = 0;
     generator::Mesh mesh;
@@ -66,8 +66,8 @@ class MeshLibrary {
     explicit MeshLibrary(std::size_t maxBytes) : meshes_(maxBytes) {}
     /// The mesh of a resolved model. Throws as generator::load does.
     std::shared_ptr<const MeshData> get(const scene::Model& model, const scene::Assets& assets);
-    /// The mesh of an open model (generator::isAdaptive), as fine as asked. `coarse`: what get
-    /// without fineness gave for the model.
+    /// Returns the mesh of an adaptive model (generator::isAdaptive) of that fineness. `coarse`:
+    /// the result of get() without fineness for the model.
     std::shared_ptr<const MeshData> get(const MeshData& coarse, const scene::Model& model,
                                         const scene::Assets& assets,
                                         const generator::Fineness& fineness);

@@ -11,17 +11,17 @@ namespace {
 using glm::dvec2;
 using glm::dvec3;
 
-// What float arithmetic moves a vertex by, view space. With u = 2^-24, M = |L p| + |t| for a
+// Error of a vertex in float arithmetic, view space. With u = 2^-24, M = |L p| + |t| for a
 // vertex p, its matrix L and its translation t: rounding the entries, the products and their sums
 // is at most 5 u M; the projection adds as little relative to |v| <= M, and clipping an edge a
-// rounding of its farther end. The signs of eight such errors differ: half of their sum is what a
-// sweep of random views meets at most (tests/numerics). Seen at depth w that is
+// rounding of its farther end. The signs of eight such errors differ: half of their sum is the
+// largest error in a sweep of random views (tests/numerics). Seen at depth w that is
 //     4 u M / w * f (1 + tan)   px,
 // f the focal length in px, tan that of half the field of view: an error of w moves a point by its
 // distance from the axis.
 constexpr double kRoundings = 4.0 / (1 << 24);
 
-// Sides at which triangles are cut stand outside the view: what is cut there is never seen.
+// Triangles are clipped at planes outside the view: the clipped edges are never visible.
 constexpr double kWider = 1.5;
 /// Distances to the corners, in those to the near plane, beyond which double cannot cut in one go.
 constexpr double kBlurred = 1e12;
@@ -116,7 +116,7 @@ class Placer {
             for (int k = 0; k < 3; ++k) reach = std::max(reach, reachOf(corner[k]));
             // Most triangles pass at the nearest depth that they could be seen at.
             if (reach * pxFromError_ <= kFloatErrorPx * lowestDepth(corner)) continue;
-            // So far away that cutting it at once would not tell.
+            // So far away that a single cut in double is not exact enough.
             if (reach > kBlurred * view_.near) return true;
             double depth = HUGE_VAL;
             for (const Corner& one : inView(corner)) depth = std::min(depth, -one.view.z);
@@ -222,7 +222,7 @@ class Placer {
         return out;
     }
 
-    /// What of a polygon has a distance of 0 or more; Sutherland and Hodgman 1974.
+    /// Returns the part of a polygon at a distance of 0 or more; Sutherland and Hodgman 1974.
     template <typename Distance>
     Polygon cut(const Polygon& polygon, const Distance& distance) const {
         if (std::all_of(polygon.begin(), polygon.end(),
@@ -254,10 +254,10 @@ class Placer {
         return static_cast<int>(std::floor(std::log(depth / sides_.near) / std::log(kBand)));
     }
 
-    /// Adds what is in view of one triangle, the `number`-th of its part: from far to near, in
-    /// pieces of few depths each, cut at the same ones whichever triangle it is. A piece is cut out
-    /// of what a cube of its size round the viewer holds: vertices err by their distance times
-    /// 2^-53, and so never by more than that share of the piece.
+    /// Adds the visible part of one triangle, the `number`-th of its part of the mesh: from far to
+    /// near, in pieces of a small depth range each, with the same cuts for all triangles. A piece
+    /// is cut out of a cube of its size round the viewer first: vertices err by 2^-53 of their
+    /// distance, and so by no more than that share of the piece.
     void addTriangle(const std::uint32_t* corner, std::size_t number) {
         if (outside_[corner[0]] & outside_[corner[1]] & outside_[corner[2]]) return;
         Polygon polygon{cornerOf(corner[0]), cornerOf(corner[1]), cornerOf(corner[2])};
@@ -283,7 +283,7 @@ class Placer {
         return cut(polygon, [&](const dvec3& at) { return sides_.distance(side, at); });
     }
 
-    /// What of a polygon may be in view no farther than `depth`.
+    /// Returns the part of a polygon that may be in view no farther than `depth`.
     Polygon cutToCube(Polygon polygon, double depth) const {
         const double half = 2.0 * depth * (1.0 + std::max(sides_.tangents.x, sides_.tangents.y));
         for (int axis = 0; axis < 3; ++axis)
@@ -292,8 +292,8 @@ class Placer {
         return polygon;
     }
 
-    /// What pieces of a triangle know of the whole: its normal and middle where it is lit once, its
-    /// corners where it is lit at them.
+    /// Stores the data of a whole triangle that its pieces need: its normal and centre for flat
+    /// shading, its corners for gouraud.
     void startFace(const std::uint32_t* corner, Polygon& polygon) {
         if (place_.isGouraud)
             for (int k = 0; k < 3; ++k) {

@@ -33,10 +33,10 @@ struct NearMesh {
 std::optional<NearMesh> placeInDouble(const MeshData& data, const MeshPlace& place,
                                       const ViewTransform& view, std::size_t maxVertices);
 
-/// A mesh of which the places are known in double, relative to the viewer, object space: cut and
-/// placed likewise, whatever floats would do.
+/// A mesh whose positions are known in double, relative to the viewer, object space. It is always
+/// cut and placed in double, even where floats would do.
 struct ExactMesh {
-    generator::MeshArrays arrays;  ///< its positions are not looked at
+    generator::MeshArrays arrays;  ///< its positions are not used
     std::vector<glm::dvec3> fromEye;
 };
 std::optional<NearMesh> placeInDouble(ExactMesh exact, const MeshPlace& place,

@@ -37,7 +37,7 @@ FeatureSet textureFeatures(scene::Filter filter, scene::Mapping mapping) {
     return features;
 }
 
-/// Only what the light of this set needs of this material is compiled into its shader.
+/// Returns the lighting features that the shader of this light set and material needs.
 FeatureSet lightFeatures(const DrawItem& item, const std::vector<EyeLight>& lights,
                          const FrameStyle& style) {
     FeatureSet features;

@@ -21,8 +21,8 @@ namespace farol::render {
 namespace {
 
 constexpr int kDefaultSide = 512;
-/// Where nobody says: 4. Outlines that may be a pixel off gain nothing by more than one sample, and
-/// those held to a twelfth of one are worth more.
+/// Returns the samples where neither scene nor request sets them: 4; one if outlines may err by a
+/// pixel, more if they err by less than a twelfth of one.
 int defaultSamples(double errorPx) {
     return errorPx >= 1.0 ? 1 : errorPx > 0.08 ? 4 : errorPx > 0.03 ? 8 : 16;
 }
@@ -113,8 +113,8 @@ class Planner {
         style_.layer = options_.layer;
         // Ids, depths and normals have no meaning between two surfaces.
         if (style_.layer != Layer::color) style_.samples = 1;
-        // More samples than four are asked for to see outlines better: a mesh that errs by more
-        // than they tell apart would waste them. `error` bounds from above, so less is allowed.
+        // More than four samples resolve finer outlines: a mesh with a larger error than their
+        // distance would waste them. `error` is an upper bound, so that less is allowed.
         if (style_.samples > 4) errorPx_ = std::min(errorPx_, 1.0 / style_.samples);
         if (crowd_.isOneSample) style_.samples = 1;
         errorPx_ *= crowd_.coarsening;
@@ -151,7 +151,7 @@ class Planner {
         plan_.items.reserve(plan_.items.size() + found.sides.size() -
                             static_cast<std::size_t>(outside));
         for (std::size_t i = 0; i < list.instances.size() && !isOverBudget(); ++i) {
-            // Whether they are seen stands apart: what is not seen is not touched.
+            // The culling results are a separate array: culled instances cost no memory access.
             if (found.sides[i] != Frustum::Side::outside || !skipping_.outside)
                 add(list, i, view, found.sides[i], firstSet, firstId, undressed);
             else
@@ -209,8 +209,8 @@ class Planner {
     /// How far a mesh may stand out of its shape, px: only those made on demand do.
     double standOutPx(bool open) const { return open ? errorPx_ : 0.0; }
 
-    /// True if no sample of the picture can lie on what the box holds. (Points and lines reach
-    /// past their geometry.)
+    /// True if no sample of the image can lie on the content of the box; false for points and
+    /// lines, which reach past their geometry.
     bool betweenSamples(const Box& box, const glm::dmat4& viewFromObject) const {
         if (drawsLines(style_)) return false;
         const std::optional<PixelRect> rect = pixelRect(box, viewFromObject, plan_.view);
@@ -249,7 +249,7 @@ class Planner {
             ++plan_.stats.betweenSamples;
             return;
         }
-        // What is drawn although nobody sees it changes nothing of the rest.
+        // Invisible items that are drawn with culling off must not change other items' results.
         const std::shared_ptr<const MeshData> whole = isSeen && !isMissed ? item.mesh : nullptr;
         const glm::dmat4 placed = viewFromObject;
         if (whole) count(item, viewFromObject, instance.open);

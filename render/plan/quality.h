@@ -24,13 +24,13 @@ struct FrameLoad {
 /// Expected time of a frame, ms; `samples` 1, 2, 4, 8 or 16.
 double expectedMs(const FrameLoad& load, int samples, double errorPx);
 
-/// The best of the front that `budgetMs` allows, else its cheapest. What is given stays as it is. A
-/// larger budget never gives a worse one: samples and error are chosen along one order.
+/// Returns the best quality of the front within `budgetMs`, else its cheapest. Keeps given values.
+/// A larger budget never gives a worse one: samples and error are chosen along one order.
 Quality chooseQuality(double budgetMs, const FrameLoad& load, std::optional<int> samples,
                       std::optional<double> errorPx);
 
-/// Fills in what options.budgetMs decides and neither the request nor the scene says; nothing
-/// without a budget.
+/// Fills in the options that options.budgetMs decides and neither the request nor the scene sets.
+/// Returns nothing without a budget.
 std::optional<Quality> resolveBudget(PictureOptions& options, const scene::Scene& scene,
                                      const Placed& placed);
 

@@ -17,7 +17,7 @@ struct Stats {
     int betweenSamples = 0;   ///< models too small to be met by a sample of any pixel
     int texturesSkipped = 0;  ///< pictures that only models sample which are not drawn
     int coarsened = 0;  ///< models whose mesh is coarser than `error` asks, as are their pixels
-    double coarsening = 1.0;  ///< their error is so many times it (render/plan/crowd.h)
+    double coarsening = 1.0;  ///< the factor of their error (render/plan/crowd.h)
     int coplanar = 0;         ///< models behind another in whose plane they have a face
     int refined = 0;          ///< models with another's surface so close that theirs is finer
     std::int64_t lightsSkipped = 0;  ///< for each model: lights that add nothing to it

@@ -11,8 +11,8 @@ Sampling chooseSampling(int wanted, const GlFacts& gl, int side) {
         for (const SamplePattern& pattern : gl.samplePatterns)
             if (static_cast<int>(pattern.size()) >= wanted)
                 return {1, static_cast<int>(pattern.size()), 1};
-    // Time against error decides (docs/benchmarks/accuracy.md). Each pass draws all triangles anew,
-    // and within one the samples stand in rows and columns.
+    // Chosen by time against error (docs/benchmarks/accuracy.md). Each pass draws all triangles
+    // again; within a pass the samples form a regular grid.
     constexpr std::array<Sampling, 5> kLarger{
         {{2, 1, 1}, {3, 1, 1}, {2, 1, 2}, {2, 1, 4}, {1, 1, 16}}};
     for (const Sampling& one : kLarger)

@@ -28,10 +28,10 @@ double distanceTo(const Box& bounds, const glm::dmat4& viewFromObject,
     return smallest * distance;
 }
 
-/// A ball errs most on the screen neither in front, where it errs along the view, nor at its rim,
-/// which is farther: what is seen of an error e is at most e D / |D^2 - r^2| (the largest value of
-/// sin(view, normal) / distance). Returned is the distance of which that is the inverse; 0 for
-/// anything but a ball.
+/// A ball's projected error is largest neither in front, where the error is along the view, nor at
+/// its rim, which is farther: an error e projects to at most e D / |D^2 - r^2| (the largest value
+/// of sin(view, normal) / distance). Returns the inverse of that factor, a distance; 0 for
+/// surfaces that are no ball.
 double ballDistance(const ProjectedSurface& seen, const glm::dvec3& center,
                     const glm::dvec3& columns) {
     if (!seen.surface.kind->isBall) return 0.0;
@@ -60,7 +60,7 @@ double shadingDivisions(scene::Shading shading, double radiusPx) {
     double divisions = 8.0;
     if (shading == scene::Shading::phong || shading == scene::Shading::solid) divisions = 48.0;
     if (shading == scene::Shading::gouraud) divisions = 96.0;
-    // Nobody sees the highlight of something a few pixels large.
+    // The highlight of an object of a few pixels is invisible.
     if (radiusPx < 4.0) divisions = std::min(divisions, 16.0);
     if (radiusPx < 1.0) divisions = 8.0;
     return divisions;

@@ -12,7 +12,7 @@
 namespace farol::render {
 namespace {
 
-constexpr std::size_t kMaxExplained = 2'000;       // models that findHidden looks at
+constexpr std::size_t kMaxExplained = 2'000;       // models that findHidden checks
 constexpr std::size_t kMaxInsideTests = 64;        // rays through meshes in one call
 constexpr std::size_t kMaxRayTriangles = 100'000;  // of a mesh that a ray is sent through
 constexpr std::size_t kMaxLitSamples = 300;        // triangles of a mesh whose light is estimated

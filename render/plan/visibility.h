@@ -15,7 +15,7 @@ namespace farol::render {
 /// first pixel: an image of a background alone.
 bool isNearlyBlank(const image::Image& image);
 
-/// Warns about lights that cannot have the effect that was meant, whatever the camera:
+/// Warns about lights that cannot have their intended effect in any view:
 /// scene.light-unused (no model is in their group), scene.light-below (every light is directional
 /// and shines from below), scene.light-inside (a closed solid that is lit from within only).
 Diagnostics checkLighting(const InstanceList& list, double timeS);
@@ -28,7 +28,7 @@ struct HiddenModels {
     bool areAll = false;  ///< every model is hidden for one of them
 };
 
-/// Looks at the first 2,000 models. `lit`: lights decide over colours.
+/// Checks the first 2,000 models. `lit`: colours depend on lights.
 HiddenModels findHidden(const scene::Scene& scene, const InstanceList& list,
                         const ViewTransform& view, bool lit, double timeS);
 

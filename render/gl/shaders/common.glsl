@@ -1,6 +1,6 @@
-// What is interpolated to be lit: at an outline where a sample is covered, not at the pixel's
-// middle, which may lie far outside a triangle that is seen edge-on. A ray to the exact surface
-// starts anywhere in the triangle's plane, and texture coordinates stay at the middle: differences
+// Interpolation of lighting attributes: at an outline at a covered sample, not at the pixel's
+// centre, which may lie far outside a triangle that is seen edge-on. A ray to the exact surface
+// starts anywhere in the triangle's plane, and texture coordinates stay at the centre: differences
 // between pixels choose their mipmap.
 #if defined(SURFACE) && !defined(SURFACE_PROFILE)
 #define COVERED
@@ -54,7 +54,7 @@ void shade(vec3 position, vec3 normal, out vec3 primary, out vec3 secondary) {
             // A light exactly at the point has no direction: ambient only.
             toLight = distance > 0.0 ? toLight / distance : vec3(0.0);
             vec3 k = lights[i].attenuation.xyz;
-            // A tiny sum rounds to 0; 1e30 is beyond what any colour needs to saturate.
+            // A tiny sum rounds to 0; a strength of 1e30 saturates any colour.
             strength = 1.0 / max(k.x + distance * (k.y + distance * k.z), 1e-30);
 #ifdef SPOT
             if (lights[i].spot.w > -2.0) {
@@ -90,7 +90,7 @@ void shade(vec3 position, vec3 normal, out vec3 primary, out vec3 secondary) {
 #endif
 }
 
-// What the texture modulates, and what is added after it, each in 0..1.
+// Splits the colour into the part that the texture modulates and the part added after it, 0..1.
 void finish(vec3 primary, vec3 secondary, out vec3 modulated, out vec3 added) {
 #ifdef SEPARATE_SPECULAR
     modulated = clamp(primary, 0.0, 1.0);

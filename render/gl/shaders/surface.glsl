@@ -8,7 +8,7 @@ in vec3 unitRay;       // from the eye to there
 flat in float cap;  // of the flat parts: their normal's y; 0: the side
 #endif
 #ifdef SURFACE_PROFILE
-// Within a facet only the turn is not that of the surface: what the profile says is linear there.
+// Within a facet only the turn differs from the surface's: attributes of the profile are linear.
 COVERED in vec2 profileNormal;  // away from Y, along it
 COVERED in vec3 unitCovered;
 #endif
@@ -82,7 +82,7 @@ uniform vec4 surfaceUv;
 uniform vec4 surfaceDiscs;
 uniform float balance;  // by which the mesh is wider than its coordinates
 
-// `near`: the triangle's own coordinates, which tell the turn that is meant.
+// `near`: the triangle's interpolated coordinates, which select the whole turn of u.
 vec2 surfaceCoordinates(vec3 q, vec2 near) {
 #if defined(SURFACE_CAPS) && defined(SURFACE_RAY)
     if (cap != 0.0) {
@@ -123,8 +123,8 @@ vec2 coordinateChange(vec3 q, vec3 step) {
 }
 #endif
 
-// The neighbouring ray meets the tangent plane at: `aside`, the change at the triangle of what is
-// `reach` from the eye, less what lies along the ray. Space of `gradient`.
+// Returns the change of the hit point in the tangent plane for the neighbouring pixel. `aside`: its
+// change in the triangle; `reach`: from the eye to the hit point. Space of `gradient`.
 vec3 tangentChange(vec3 aside, vec3 reach, vec3 gradient) {
     float facing = dot(gradient, reach);
     if (abs(facing) < 1e-12) return aside;

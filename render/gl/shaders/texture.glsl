@@ -8,8 +8,8 @@ uniform sampler2D image;
 uniform float samplesAcross;  // of a pixel of the image, whose level of detail all its samples have
 #endif
 
-// The change a pixel to the right and a pixel up of what is linear over the triangle: v / w and
-// 1 / w (gl_FragCoord.w) are linear over the picture, so that their differences are derivatives.
+// Derivatives by pixel of an attribute that is linear over the triangle: v / w and 1 / w
+// (gl_FragCoord.w) are linear over the image, so that their differences are exact.
 #define CHANGE(difference, v) \
     ((difference((v) * gl_FragCoord.w) - (v) * difference(gl_FragCoord.w)) / gl_FragCoord.w)
 #define CHANGE_RIGHT(v) CHANGE(dFdx, v)

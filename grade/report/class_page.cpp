@@ -29,7 +29,7 @@ nlohmann::json parsedGrade(const TaskResult& task) {
     return grade == nullptr ? nlohmann::json::object() : parseJson(grade->json, kGradeJson);
 }
 
-/// What the kind of mistake is; the code itself where a result of another version has it.
+/// Returns the description of a kind of mistake; the code itself if this version does not know it.
 std::string aboutKind(const std::string& code) {
     for (const Kind& kind : kinds())
         if (kind.code == code) return std::string(kind.about);

@@ -11,7 +11,7 @@ struct Member {
     std::string name, number;  ///< Moodle's identifier without "Participant"
 };
 
-/// Who handed in together: a row of the grade book each.
+/// The groups of a class: each member gets a row in the grade book.
 class Groups {
   public:
     Groups() = default;

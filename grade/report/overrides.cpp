@@ -27,7 +27,7 @@ ordered_json entryOf(const std::string& criterion, const std::optional<double>& 
     return entry;
 }
 
-/// The grade of a task that has none, for a mark by hand.
+/// Returns an empty grade for an ungraded task, to which a teacher's mark is added.
 ordered_json ungraded(const TaskFailure& failure, double most) {
     return {{"state", "graded"},
             {"points", 0.0},

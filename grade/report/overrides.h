@@ -8,7 +8,7 @@
 
 namespace farol::grade {
 
-/// Returns whether `who` in a teacher's table means the student: the submission's name, the
+/// Returns whether a name in a teacher's table means the student: the submission's name, the
 /// student's name, or Moodle's identifier with or without "Participant", in any case.
 bool isStudent(const std::string& who, const std::string& id, const std::string& name,
                const std::string& number);
@@ -23,8 +23,8 @@ class Overrides {
     Overrides(const std::string& text, const std::string& file);
 
     /// Changes the points of the criteria and tasks that rows name, and keeps the rows with the
-    /// grade ("overrides"). A mark that was given to what was not graded makes it graded. Points
-    /// stay at most those of the criterion, the task or the submission.
+    /// grade ("overrides"). A mark makes an ungraded task graded. Limits points to those of the
+    /// criterion, the task or the submission.
     void applyToTask(TaskResult& task, const SubmissionResult& student, double most,
                      double passMark) const;
     /// The same for rows without a task, once the submission's points are summed up.

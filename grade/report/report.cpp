@@ -133,7 +133,7 @@ std::string feedback(const SubmissionResult& one) {
         if (unexplained > 0.0)
             line(prefix + "unexplained: the pictures differ for a reason that was not found (-" +
                  twoDigits(unexplained) + ")");
-        // What is wrong in many places is listed once, with its lines.
+        // An error at several places is listed once, with its lines.
         std::vector<std::pair<std::string, std::vector<int>>> errors;
         for (const auto& diagnostic : grade.value("diagnostics", ordered_json::array())) {
             if (diagnostic.value("severity", "") != "error" && !(grade.value("penalty", 0.0) > 0.0))
@@ -166,8 +166,8 @@ void writeJson(std::ostream& out, const ClassResult& all) {
 }
 
 void writeCsv(std::ostream& out, const ClassResult& all) {
-    // Moodle takes no worksheet without a column of this name. It is left empty: a report tells no
-    // times, and with none Moodle replaces a grade that it has only where the teacher allows it.
+    // Moodle requires a column of this name. It stays empty: reports have no times, and without
+    // one Moodle overwrites an existing grade only if the teacher allows it.
     out << "Identifier,Full name,Grade,Maximum Grade,Last modified (grade),Passed,Submission,"
            "Feedback comments\r\n";
     for (std::size_t i = 0; i < all.count; ++i) {

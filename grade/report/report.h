@@ -9,7 +9,7 @@
 #include "grade/report/groups.h"
 
 /// A class's results as files: a page to read, a table for the grade book, JUnit for CI services,
-/// JSON for everything else. They hold what the submissions hold and nothing of the run: the same
+/// JSON for everything else. They depend on the submissions and not on the run: the same
 /// class gives the same bytes.
 namespace farol::grade {
 
@@ -36,7 +36,7 @@ struct TaskResult {
 
 struct SubmissionResult {
     std::string id;      ///< the folder's or file's name, unique
-    std::string name;    ///< the student's, where the name of the folder tells it
+    std::string name;    ///< the student's, if the name of the folder has it
     std::string number;  ///< Moodle's identifier without "Participant", else empty
     double points = 0, most = 0;
     bool passed = false;

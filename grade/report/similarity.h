@@ -8,7 +8,7 @@
 
 namespace farol::grade {
 
-/// Two submissions that have the same, and what: never a verdict.
+/// Two similar submissions and their common traits: never a verdict.
 struct SimilarPair {
     std::size_t first = 0, second = 0;  ///< of the class
     std::size_t task = 0;
@@ -17,9 +17,9 @@ struct SimilarPair {
     std::size_t runs = 0;                               ///< of four tags in a row, that both have
 };
 
-/// Ranks pairs of submissions by the traits that both have and few others: what the reference has
-/// is no trait, and what more than a quarter of the class has (or more than 50) was handed out.
-/// At most `max` pairs, the highest score first.
+/// Ranks pairs of submissions by traits that both have and few others. Ignores traits of the
+/// reference, and of more than a quarter of the class (or more than 50): those were handed out.
+/// Returns at most `max` pairs, the highest score first.
 std::vector<SimilarPair> similarPairs(const ClassResult& all, std::size_t max);
 
 }  // namespace farol::grade

@@ -20,7 +20,7 @@ constexpr std::size_t kMaxRead = std::size_t{1} << 20U;  // of one document, to 
 constexpr std::size_t kMaxLookedInto = 200;
 constexpr std::size_t kMaxNamedFiles = 1000;
 
-/// Letters without accents in lower case, the rest as blanks between words; a number is a word.
+/// Splits a name into words of lower-case letters without accents, and numbers without zeros ahead.
 std::vector<std::string> wordsOf(std::string_view name) {
     const std::string plain = scene::spelling::decomposed(nameToUtf8(name));
     std::vector<std::string> words;
@@ -45,7 +45,7 @@ std::vector<std::string> wordsOf(std::string_view name) {
 
 bool isNumber(const std::string& word) { return isDigit(word[0]); }
 
-/// One word for all that mean the same in names of tasks.
+/// Returns one synonym for all words of one meaning in names of tasks.
 std::string meaningOf(const std::string& word) {
     static constexpr std::pair<std::string_view, std::string_view> kSame[] = {
         {"teste", "test"},     {"testes", "test"}, {"tests", "test"},     {"t", "test"},
@@ -58,7 +58,7 @@ std::string meaningOf(const std::string& word) {
     return word;
 }
 
-/// Words that say which attempt a file is, or nothing at all: no task is called by them alone.
+/// True for generic words: no task is named by them alone.
 bool isFiller(const std::string& word) {
     static const std::set<std::string> kFillers{"test", "phase", "task", "scene", "xml"};
     return kFillers.count(word) != 0;
@@ -75,11 +75,11 @@ Name nameOf(std::string_view text) {
     return name;
 }
 
-/// How well a name means the task: 0 not at all, 1 with words around it, 2 exactly.
+/// Returns how well a name matches the task: 0 not at all, 1 with further words, 2 exactly.
 int likeness(std::string_view text, std::string_view task) {
     const Name name = nameOf(text), meant = nameOf(task);
     if (meant.words.empty() && meant.numbers.empty()) return lowerCase(text) == lowerCase(task);
-    // The task's numbers come first; what follows them counts attempts.
+    // The task's numbers come first; later numbers count attempts.
     if (name.numbers.size() < meant.numbers.size() ||
         !std::equal(meant.numbers.begin(), meant.numbers.end(), name.numbers.begin()))
         return 0;
@@ -99,7 +99,7 @@ int likenessOf(const std::string& path, const std::string& task) {
     return std::max(likeness(stemOf(path), task), likeness(folderOf(path), task));
 }
 
-/// The number behind a word for a version, or of a copy: "house (2)", "phase 4", "v3"; 0: none.
+/// Returns the last number of a name, its version or copy: "house (2)", "phase 4", "v3"; 0: none.
 int versionOf(const std::string& text) {
     const std::vector<std::string> words = wordsOf(text);
     int version = 0;
@@ -108,7 +108,7 @@ int versionOf(const std::string& text) {
     return version;
 }
 
-/// 1 for the last, -1 for one that was put aside.
+/// Returns 1 for the name of a final version, -1 for that of an old or temporary one, else 0.
 int stateOf(const std::string& text) {
     static const std::set<std::string> kLast{"final",  "finais",    "last", "ultimo",
                                              "ultima", "newest",    "new",  "novo",
@@ -123,7 +123,7 @@ int stateOf(const std::string& text) {
     return state;
 }
 
-/// A document that may be meant, with what speaks for it.
+/// A candidate document, with its evidence.
 struct Candidate {
     std::string path;
     int likeness = 0;
@@ -132,7 +132,7 @@ struct Candidate {
     std::size_t content = 0;
 };
 
-/// Keeps those of the largest value; true where that left some out.
+/// Keeps the candidates of the largest value; true if it removed some.
 bool keepMost(std::vector<Candidate>& candidates, const std::function<long(const Candidate&)>& of) {
     long most = std::numeric_limits<long>::min();
     for (const Candidate& one : candidates) most = std::max(most, of(one));
@@ -206,7 +206,7 @@ Choice chooseDocument(const scene::Assets& files, std::vector<std::string> docum
             const bool isNamed = std::any_of(left.begin(), left.end(), likest);
             if (isNamed && isDecided(keepMost(left, likest), message<"part.chosen/name">()))
                 return true;
-            // A document that names the task's files is meant, whatever it is called.
+            // If no name matches, documents that name half of the task's files are chosen.
             if (!isNamed &&
                 std::erase_if(left,
                               [&](const Candidate& one) {

@@ -16,16 +16,16 @@ struct Wanted {
     std::vector<std::string> files;   ///< base names that the reference names, lower case
 };
 
-/// The base names of the files that a document names in quotes, in lower case, each once: what
-/// ends in a dot and two to five letters or digits. At most 1000.
+/// Returns the base names of the files that a document names in quotes, in lower case, each once:
+/// texts that end in a dot and two to five letters or digits. At most 1000.
 std::vector<std::string> filesNamedIn(std::string_view document);
 
-/// Whether a name means the task, whatever its capitals, accents, blanks and signs, with words
-/// around it: "Test 4.1 (final)" and "testeFase4" mean "test_4_1" and "phase 4". Numbers must be
-/// the task's; words may be its Portuguese.
+/// Returns whether a name means the task, ignoring case, accents, blanks, signs and further words:
+/// "Test 4.1 (final)" and "testeFase4" mean "test_4_1" and "phase 4". Numbers must be the task's;
+/// words may be Portuguese.
 bool isNamedLike(std::string_view name, std::string_view task);
 
-/// The document that is meant.
+/// The chosen document.
 struct Choice {
     std::string path;
     Message reason;  ///< why this one; empty where there was no other

@@ -14,7 +14,7 @@
 
 namespace farol::grade {
 
-/// A reference with what all comparisons share.
+/// A reference with the data that all comparisons share.
 struct Reference {
     std::optional<image::Image> screen;  ///< where it is a picture
     render::Job job;
@@ -26,7 +26,7 @@ struct Reference {
     Work work;                  ///< by the views of `fixed`
 };
 
-/// Draws repaired scenes and measures what a repair changes.
+/// Renders repaired scenes and measures the effect of a repair.
 class RepairPainter {
   public:
     /// `own`: the submission's files. All outlive the painter.

@@ -33,7 +33,7 @@ struct Frame {
     std::optional<FlipPicture> flip;  ///< of references: it serves all comparisons
 };
 
-/// Both sides of a view, and what several metrics need of them, computed when first asked for.
+/// Both sides of a view, and the derived data that several metrics share, computed on first use.
 /// Precondition: frames of one size; they and `hidden` outlive the pair.
 class FramePair {
   public:

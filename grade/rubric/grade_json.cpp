@@ -56,7 +56,7 @@ ordered_json causesOf(const Grade& grade) {
 }
 
 ordered_json viewsOf(const Grade& grade) {
-    // Parts that the rubric leaves out are not shown: a 0 would say that nothing differs.
+    // Parts outside the rubric are not shown: a 0 would mean that nothing differs.
     std::set<const MetricSpec*> judged;
     for (const CriterionGrade& one : grade.criteria) judged.insert(one.metric);
     ordered_json out = ordered_json::array();

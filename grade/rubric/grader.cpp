@@ -67,8 +67,8 @@ std::shared_ptr<const LentAssets> lend(render::Job& job, const Reference& refere
     return lent;
 }
 
-/// Charges a document that could only be read with errors, in hundredths. One that no engine
-/// opens costs two fifths; a part that is left out costs what is missing then, and some more.
+/// Charges a document with errors, in hundredths: two fifths if no engine opens it, else a small
+/// sum for each part that was left out, beside the cost of its absence.
 void chargeRepairs(const Diagnostics& diagnostics, Evidence& evidence) {
     constexpr double kCannotBeOpened = 40.0, kPart = 6.0, kMaxParts = 18.0;
     bool isBroken = false;
@@ -168,8 +168,8 @@ struct Grader::State {
         grade.times.drawMs += watch.lapMs();
     }
 
-    /// Numbers of the submission's pieces become those of the reference's items that they stand
-    /// for; what has no partner gets numbers beyond them.
+    /// Replaces instance numbers of the submission by the numbers of the matching items of the
+    /// reference; items without a match get numbers after those.
     void translate(std::vector<std::uint32_t>& ids, const render::Prepared& prepared, double timeS,
                    const Diagnosis& diagnosis) {
         const render::InstanceList list =
@@ -234,7 +234,7 @@ struct Grader::State {
         }
     }
 
-    /// Not what is missing, which is counted, nor cameras, which have their own pictures.
+    /// True for causes that renders measure: not missing items (counted), nor cameras.
     static bool isDrawn(const Cause& cause) {
         const Kind& kind = kindOf(cause.code);
         return kind.most > 0.0 && kind.topic != Topic::camera;
@@ -264,7 +264,7 @@ struct Grader::State {
         for (const MetricSpec& metric : metrics()) {
             const ImageMetric* image = metric.image();
             if (image == nullptr || !parts.covers(image->needs)) continue;
-            // Layers that are there anyway say whether something is to be seen.
+            // Layers that are rendered anyway show whether a difference is visible.
             const bool hasLayers = image->needs.hasLayers();
             if (&metric != &mainMetric() && !hasLayers && !isWeighed(metric, criteria)) continue;
             Measurement measured = image->compute(pair);

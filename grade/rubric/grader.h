@@ -30,7 +30,7 @@ struct CausePlace {
     std::string excerpt;  ///< the lines of the document there
 };
 
-/// A mistake, and what it costs: nothing where nobody can see it.
+/// A mistake and its cost in points: 0 if no view shows it.
 struct GradedCause {
     std::string code;  ///< of kinds()
     Message message;
@@ -65,10 +65,10 @@ struct Grade {
     std::optional<NotGraded> notGraded;  ///< then there are no points
     double points = 0, most = 0;
     bool passed = false;
-    bool visible = false;    ///< some picture differs by more than rounding
-    double present = 1;      ///< share of the reference's work that is there, 0..1
-    double penalty = 0;      ///< points, for diagnostics and for what had to be repaired to read it
-    double unexplained = 0;  ///< points, for what no cause explains
+    bool visible = false;              ///< some picture differs by more than rounding
+    double present = 1;                ///< share of the reference's work that is there, 0..1
+    double penalty = 0;                ///< points, for diagnostics and repairs of the document
+    double unexplained = 0;            ///< points, for differences without a cause
     double unexplainedShare = 0;       ///< share of the weighted work
     std::optional<double> similarity;  ///< of a picture that was handed in for a scene, 0..1
     std::vector<CriterionGrade> criteria;
@@ -89,7 +89,7 @@ class Grader {
     ~Grader();
 
     /// Throws Error when the reference is at fault; a submission that cannot be read is not graded.
-    /// The same arguments give the same grade, whatever was graded before.
+    /// The grade depends on the arguments only, not on earlier calls.
     Grade grade(const Subject& reference, const Subject& submission, const Rubric& rubric);
 
     /// The image of the reference in each view, JPEG, in the order of Grade::views. Throws Error.

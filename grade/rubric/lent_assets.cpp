@@ -17,7 +17,7 @@ bool mayBeLent(const std::string& path) {
     return kEndings.count(fileEnding(path)) != 0;
 }
 
-/// Where a scene takes each file from, the first place of each.
+/// The files that a scene uses, each with the location of its first use.
 class Uses {
   public:
     explicit Uses(const scene::Scene& scene) {

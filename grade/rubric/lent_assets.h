@@ -9,10 +9,10 @@
 
 namespace farol::grade {
 
-/// A submission's files, and behind them those that were handed out with the task: students leave
-/// out the pictures and models that everybody has. A file of the submission hides the reference's
-/// of the same name, in whatever folder either is. Documents and .3d meshes are the student's to
-/// make: they are never replaced.
+/// A submission's files, with the reference's as a fallback: students leave out images and models
+/// that were handed out with the task. A file of the submission hides the reference's of the same
+/// base name, in any folder. Documents and .3d meshes are the student's own work and have no
+/// fallback.
 class LentAssets final : public scene::Assets {
   public:
     LentAssets(std::shared_ptr<const scene::Assets> own,
@@ -25,8 +25,8 @@ class LentAssets final : public scene::Assets {
     void prefetch(const std::vector<std::string>& paths) const override;
     std::string version(const std::string& path) const override;
 
-    /// An info `grade.lent` for each file of the reference that the scene, which was resolved
-    /// against these files, takes; by path.
+    /// Returns an info `grade.lent` for each file of the reference that the scene uses, by path.
+    /// Precondition: the scene was resolved against these files.
     Diagnostics notes(const scene::Scene& scene) const;
 
   private:

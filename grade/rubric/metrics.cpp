@@ -62,8 +62,8 @@ MetricSpec work(Topic topic, double weight, const char* summary) {
     return {kTopicWords[topic], summary, CauseMetric{topic}, weight};
 }
 
-// The tolerances are what rounding, another tessellation order and a pixel's shift make in
-// docs/grading.md's table, and some more.
+// The tolerances are the losses by rounding, another tessellation order and a pixel's shift in
+// docs/grading.md's table, with a margin.
 std::vector<MetricSpec> makeMetrics() {
     return {
         {"difference",

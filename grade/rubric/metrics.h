@@ -37,11 +37,10 @@ struct ImageMetric {
     double tolerance = 0.0, limit = 1.0;  ///< of a rubric that does not set them
 };
 
-/// A metric of scenes: what causes of a topic leave of the work that is there.
+/// A metric of scenes: the share of the present work that the causes of a topic leave correct.
 struct CauseMetric {
     Topic topic;
-    double perFinding =
-        0.5;  ///< of a rubric that does not set it: costs as the table of kinds says
+    double perFinding = 0.5;  ///< of a rubric that does not set it: costs as in the table of kinds
 };
 
 struct MetricSpec {
@@ -60,11 +59,11 @@ struct MetricSpec {
 /// All metrics, in the order of reports. Their addresses are the metrics' identity.
 std::span<const MetricSpec> metrics();
 
-/// The first metric: measured and shown whatever the rubric holds; the heat maps are its own, and
+/// Returns the first metric: measured and shown with any rubric; the heat maps show it, and
 /// reports order views by it.
 const MetricSpec& mainMetric();
 
-/// A number as people write it: at most four digits after the point, none that say nothing.
+/// Formats a number with at most four digits after the point and no trailing zeros.
 std::string shortNumber(double value);
 
 /// A share as sentences show it: "12.5 %".

@@ -168,7 +168,7 @@ Rubric readRubric(const std::string& text, const std::string& name) {
 
 std::string writeRubric(const Rubric& rubric) {
     RubricWriter writer;
-    Rubric copy = rubric;  // a description may change what it describes
+    Rubric copy = rubric;  // describe() takes a mutable rubric
     describe(writer, copy);
     return dumpJson(writer.out, 2) + "\n";
 }

@@ -19,7 +19,7 @@ struct Criterion {
     const MetricSpec* metric;             ///< of metrics()
     double weight = 1.0;                  ///< 0..1000; shares of the points
     double tolerance = 0.0, limit = 1.0;  ///< 0..1, tolerance < limit; of image metrics
-    double perFinding = 0.5;              ///< of topics: 0.5 costs as the table of kinds says
+    double perFinding = 0.5;              ///< of topics: 0.5 costs as in the table of kinds
 };
 
 /// A camera to look at both scenes with.
@@ -65,7 +65,7 @@ struct Rubric {
 Rubric defaultRubric();
 
 inline constexpr JsonLimits kRubricJson{.bytes = 262'144, .stringBytes = 4'096};
-/// Reads a rubric (at most kRubricJson); what it leaves out is the default's. Throws Error
+/// Reads a rubric (at most kRubricJson); missing keys have the default's values. Throws Error
 /// rubric.json, rubric.key, rubric.type, rubric.range, each with the path of the value:
 /// "criteria[2].weight".
 Rubric readRubric(const std::string& json, const std::string& name);

@@ -20,7 +20,7 @@ namespace farol::grade {
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-/// A bound of numbers as people write it: 16, 0.01.
+/// Returns a bound of numbers in its short form: 16, 0.01.
 ordered_json bound(double value);
 
 inline constexpr std::size_t kMaxRubricText = 200;  ///< bytes; the rest is cut off

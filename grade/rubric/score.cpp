@@ -70,7 +70,7 @@ std::string excerptOf(const std::string& xml, int line) {
     return out;
 }
 
-/// The line of the camera's element that a cause is about: the scene tells the camera's alone.
+/// Returns the line of the camera's child element of a cause: the scene stores the camera's only.
 Location cameraPlace(const std::string& code, Location where, const std::string& xml) {
     static const std::map<std::string, std::string> kElements{{"camera.position", "<position"},
                                                               {"camera.target", "<lookat"},
@@ -101,7 +101,7 @@ double penaltyOf(const Grade& grade, const Rubric& rubric) {
         const auto special = rubric.byCode.find(one.code);
         if (special != rubric.byCode.end())
             sum += special->second;
-        else if (one.severity != Severity::info)  // errors: of what placeholders stand for
+        else if (one.severity != Severity::info)  // errors: of files that placeholders replace
             sum += rubric.perWarning;
     }
     return std::min(sum, rubric.mostPenalty);
@@ -238,7 +238,7 @@ class WorkScore {
         return own;
     }
 
-    /// Takes what one criterion cannot cover from all that objects earn, and returns how much.
+    /// Deducts points that one criterion cannot cover from all object criteria; returns how many.
     double takeFromObjects(double points) {
         double all = 0.0;
         for (std::size_t t = 0; t < kTopics; ++t)
@@ -276,7 +276,7 @@ void score(Grade& grade, const Evidence* evidence, const Rubric& rubric, const s
     const auto excerptAt = [&](const Location& where) {
         return where.line > 0 && where.file == name ? excerptOf(xml, where.line) : "";
     };
-    std::set<std::string> shown;  // of what is wrong in many places, the first
+    std::set<std::string> shown;  // messages: an error at several places has one excerpt
     for (const Diagnostic& one : grade.diagnostics)
         grade.excerpts.push_back(one.severity != Severity::info && shown.insert(one.message).second
                                      ? excerptAt(one.where)
@@ -295,7 +295,7 @@ void score(Grade& grade, const Evidence* evidence, const Rubric& rubric, const s
             Message sentence = sentenceOf(causes[c], rubric.reveal);
             cause.spoiled = evidence->spoiled[c];
             constexpr double kSeen = 5e-4;  // of the work: less is a few pixels' rounding
-            // A placeholder may look like what it stands for: still the file was not handed in.
+            // A missing file is visible even if its placeholder looks like it.
             cause.isSeen = cause.spoiled > kSeen || cause.code.ends_with(".file-missing");
             if (evidence->isUnclosed && cause.code == "group.parent")
                 sentence = message<"part.cause/unclosed">("cause"_arg = sentence);

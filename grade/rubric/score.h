@@ -15,15 +15,15 @@ struct Evidence {
     double present = 1;           ///< share of the weighted work that is there
     int lights = 0;               ///< of the reference
     bool hasCamera = true, moves = false;  ///< the reference
-    double penalty = 0;       ///< hundredths, for what had to be repaired to read the document
+    double penalty = 0;                    ///< hundredths, for errors repaired to read the document
     bool isUnclosed = false;  ///< an end tag is missing: groups under wrong parents follow
 };
 
 /// The rubric's criteria that apply to pictures; where it has none, `difference` and `flip`.
 std::vector<Criterion> pictureCriteria(const Rubric& rubric);
 
-/// Turns what was measured and found into points: fills in criteria, causes, penalty, points and
-/// passed. `evidence`: both sides are scenes; null: criteria of pictures share all points. `xml` is
+/// Turns measurements and causes into points: fills in criteria, causes, penalty, points and
+/// passed. `evidence`: both sides are scenes; null: criteria of images share all points. `xml` is
 /// the submission's document, for excerpts, `name` its name in locations.
 void score(Grade& grade, const Evidence* evidence, const Rubric& rubric, const std::string& xml,
            const std::string& name);

@@ -13,8 +13,8 @@ enum class Topic { models, transforms, textures, materials, lights, camera, anim
 inline constexpr EnumWords<Topic, Topic::animation> kTopicWords{
     "models", "transforms", "textures", "materials", "lights", "camera", "animation"};
 
-/// A kind of mistake. A cause costs `least` where hardly anything of the work shows it and `most`
-/// where all does, in hundredths of a submission's points; what nobody can see costs nothing.
+/// A kind of mistake. A cause costs `least` if it affects hardly any of the work and `most` if it
+/// affects all, in hundredths of a submission's points; an invisible cause costs nothing.
 struct Kind {
     std::string_view code;
     Topic topic;

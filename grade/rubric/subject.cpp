@@ -39,7 +39,7 @@ std::string chooseImage(const std::vector<std::string>& paths, const std::string
     return left.size() == 1 ? left.front() : "";
 }
 
-/// Says what the files are instead, where they are of one foreign kind. Throws Error.
+/// Throws Error grade.no-scene; names the type of the files if all have the same.
 [[noreturn]] void throwNoScene(const scene::Assets& files, const std::string& where,
                                const Wanted& wanted, bool hasScenes) {
     const Location place{where, 0, 0};

@@ -18,16 +18,16 @@ struct Subject {
     Diagnostics notes;                   ///< which file was chosen, and why
 };
 
-/// The scene, image or archive that is meant among files by their paths: chooseDocument() of the
-/// .xml files. Without any .xml file it is the only archive, else the image that has the task's
-/// name, or where there is no task the only image or the highest in the folders. `where` names the
+/// Chooses the scene, image or archive among files by their paths: chooseDocument() of the .xml
+/// files. Without any .xml file the only archive, else the image with the task's name, or without a
+/// task the only image or the one highest in the folders. `where` names the
 /// files in errors.
 /// Throws Error grade.no-scene, grade.which-scene, grade.empty-file.
 Subject subjectOf(std::shared_ptr<const scene::Assets> files, const std::string& where,
                   const Wanted& wanted);
 
-/// Opens the subject's archive, if it is one: not to be done outside the sandbox. `files` are what
-/// the reference names (filesNamedIn), if that is known. Throws as scene::ArchiveAssets and
+/// Opens the subject's archive, if it is one; only inside the sandbox. `files`: names of files in
+/// the reference (filesNamedIn), if known. Throws as scene::ArchiveAssets and
 /// subjectOf do.
 Subject opened(const Subject& subject, const std::vector<std::string>& files = {});
 

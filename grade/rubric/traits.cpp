@@ -28,7 +28,7 @@ std::set<std::string> commentsOf(std::string_view xml) {
     return comments;
 }
 
-/// Digests of four tags in a row: who writes the same by himself seldom writes it in this way.
+/// Returns digests of four consecutive tags: independent authors seldom write the same ones.
 std::set<std::string> runsOf(std::string_view xml) {
     constexpr std::size_t kRun = 4, kDigits = 12;
     std::vector<std::string> tags;

@@ -7,7 +7,7 @@
 
 namespace farol::grade {
 
-/// What a submission has that its reference has not, for comparing submissions with each other.
+/// Traits of a submission that its reference lacks, to compare submissions with each other.
 /// Each list is sorted, each text once, at most 300 of at most 200 bytes.
 struct Traits {
     std::vector<std::string> causes;    ///< with the exact numbers

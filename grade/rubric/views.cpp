@@ -13,7 +13,7 @@
 namespace farol::grade {
 namespace {
 
-constexpr int kMaxSide = 512;  // px, where the rubric does not say: details that count are larger
+constexpr int kMaxSide = 512;  // px, unless the rubric sets a size: relevant details are larger
 
 render::PictureOptions basic(const Rubric& rubric, const scene::Scene& reference) {
     render::PictureOptions options;

@@ -15,9 +15,9 @@ struct Work {
     std::vector<std::vector<std::uint32_t>> items;
 };
 
-/// Half of the work is shared equally by the objects, half by the root of the pixels that they
-/// cover over the views: a small part counts, and so does what fills the picture. `numbers`: by
-/// view, the numbers of a layer=id picture of `list`.
+/// Shares half of the work equally among the objects, half by the root of the pixels that they
+/// cover over the views: small objects count, and so do objects that fill the image. `numbers`: by
+/// view, the numbers of a layer=id image of `list`.
 Work workOf(const Outline& outline, const render::InstanceList& list,
             std::vector<std::vector<std::uint32_t>> numbers);
 

@@ -33,7 +33,7 @@ struct Flags {
     bool printRubric = false;
 };
 
-/// Says on stderr how far the run is: a bar on a terminal, else a line every tenth of the way.
+/// Shows progress on stderr: a bar on a terminal, else a line for each tenth of the submissions.
 class Progress {
   public:
     void operator()(std::size_t done, std::size_t all) {
@@ -89,7 +89,7 @@ worker::PoolOptions poolOptions(const Flags& flags) {
     pool.queue.wait = std::chrono::hours(24);
     pool.queue.deadline =
         std::chrono::milliseconds(static_cast<std::int64_t>(flags.deadlineS * 1000.0));
-    // One user's own machine: the deadline alone bounds what many cores do at once.
+    // One user's own machine: the deadline alone bounds a job on many cores.
     pool.cpu = std::chrono::hours(24);
     return pool;
 }
@@ -124,7 +124,7 @@ void printTable(const grade::ClassResult& all, const BatchTimes& times, int jobs
         times.readMs / each, times.drawMs / each, times.compareMs / each);
 }
 
-/// Reads what the teacher wrote beside the class, and returns the name of the table of overrides.
+/// Reads the teacher's tables beside the class; returns the file name of the overrides.
 std::string readTables(const Flags& flags, const std::vector<Submission>& submissions,
                        BatchOptions& options) {
     std::string overrides = flags.overrides, groups = flags.groups;

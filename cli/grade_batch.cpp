@@ -61,8 +61,8 @@ bool isWholeInto(grade::TaskGrade& task, const std::string& path) {
     return std::filesystem::is_regular_file(path, failed) && unpackInto(task, readInput(path));
 }
 
-/// Asks again where the worker is lost or its memory full: that may be what earlier submissions
-/// left in it, and the next worker is a fresh one. After a timeout it does not retry.
+/// Retries once if the worker is lost or out of memory: earlier submissions may be the cause, and
+/// the next worker is a new process. Does not retry after a timeout.
 template <worker::Task T>
 typename T::Reply ask(worker::Backend& backend, const typename T::Request& request) {
     try {
@@ -208,7 +208,7 @@ void Batch::gradeOne(std::size_t submission, std::size_t task) {
 grade::TaskResult Batch::loadTask(std::size_t submission, std::size_t task) const {
     const Submission& who = submissions_[submission];
     const Entry& entry = entries_[submission * names_.size() + task];
-    // What shows the student's name in a message or an excerpt does not show it either.
+    // Messages and excerpts must not show the student's name either.
     const auto shownAs = [&](const std::string& text) {
         return options_.pseudonyms ? withoutName(text, who, options_.pseudonyms->of(who)) : text;
     };

@@ -15,8 +15,8 @@ namespace farol::cli {
 std::vector<grade::Rubric> readRubrics(const std::string& path,
                                        const std::vector<GradeTask>& tasks);
 
-/// Returns the text of a table: of `path`, which must be there, else of `usual`, which need not be.
-/// `path` becomes the name of what was read, empty where there is nothing. Throws Error asset.*.
+/// Returns the text of a table: of `path`, which must exist, else of `usual`, which may be missing.
+/// Sets `path` to the file that was read, empty if none was. Throws Error asset.*.
 std::string readTable(std::string& path, const std::string& usual);
 
 /// Writes a zip with a page for each student, or each member of a group, under the name that Moodle

@@ -15,7 +15,7 @@
 
 /// The scene model that every dialect is read into. Right-handed, +Y up; lengths in the scene's
 /// own units; colours are display values 0..1 (no sRGB decoding: the field's pictures are made
-/// so). Angles are in degrees where the name says so. All numbers are finite.
+/// so). Angles are in degrees where the name ends in Deg. All numbers are finite.
 namespace farol::scene {
 
 /// Which of the field's dialects the document is written in (docs/scene-language.md).

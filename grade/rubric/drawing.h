@@ -20,7 +20,7 @@ struct Reference {
     render::Job job;
     std::vector<double> timesS;
     std::optional<ReferenceScene> scene;
-    std::vector<Shot> shots;    ///< by the rubric's views; each scene's own camera where it says so
+    std::vector<Shot> shots;    ///< by the rubric's views; some by each scene's own camera
     std::vector<Shot> fixed;    ///< the same, all by the reference's cameras
     std::vector<Frame> frames;  ///< of the shots
     Work work;                  ///< by the views of `fixed`

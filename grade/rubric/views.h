@@ -20,7 +20,7 @@ struct Shot {
 };
 
 /// The views of a rubric for a reference scene of these bounds, at each of `timesS`. Pictures are
-/// as large as the rubric says, else as the reference's window, but at most 512 px a side.
+/// as large as the rubric sets, else as the reference's window, but at most 512 px a side.
 /// `isFixed`: all renders use the reference's camera as the scene's own.
 std::vector<Shot> planShots(const Rubric& rubric, const scene::Scene& reference,
                             const render::Box& bounds, const std::vector<double>& timesS,

@@ -27,7 +27,7 @@ Message twoValues(double mine, double right);
 Message twoValues(const glm::dvec3& mine, const glm::dvec3& right);
 Message twoValues(const std::string& mine, const std::string& right);
 
-/// A number as people write it: at most four digits after the point, none that say nothing.
+/// Formats a number with at most four digits after the point and no trailing zeros.
 std::string shortNumber(double value);
 /// A colour as scenes write it, 0 to 255: "255 127.5 0".
 std::string levels(const scene::Color& color);

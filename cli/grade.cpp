@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <memory>
 #include <mutex>
@@ -14,6 +14,7 @@
 #include "cli/command.h"
 #include "cli/files.h"
 #include "cli/grade_batch.h"
+#include "cli/grade_formats.h"
 #include "cli/grade_tables.h"
 #include "cli/messages.h"
 #include "grade/rubric/rubric.h"
@@ -24,7 +25,9 @@ namespace {
 
 struct Flags {
     std::string reference, submissions, output, rubric, missing = "placeholder";
-    std::string overrides, groups, anonymous;
+    std::string overrides, groups, anonymous, agreement;
+    std::vector<std::string> formats;
+    bool isSingle = false;
     bool hasFeedback = false;
     int jobs = 0;
     render::GlSource gl = render::GlSource::automatic;
@@ -63,20 +66,6 @@ class Progress {
     std::size_t tenth_ = 0;
     std::mutex mutex_;
 };
-
-/// Writes a file through a stream, all or nothing.
-void writeReport(const std::string& path, const grade::ClassResult& all,
-                 void (*write)(std::ostream&, const grade::ClassResult&)) {
-    const std::string draft = path + ".part";
-    std::ofstream out(draft, std::ios::binary);
-    write(out, all);
-    out.close();
-    std::error_code failed;
-    if (out) std::filesystem::rename(draft, path, failed);
-    if (!out || failed)
-        throw OutputError(message<"output.unwritable">(
-            "path"_arg = uncut(path), "reason"_arg = failed ? failed.message() : "write error"));
-}
 
 worker::PoolOptions poolOptions(const Flags& flags) {
     worker::PoolOptions pool;
@@ -124,6 +113,23 @@ void printTable(const grade::ClassResult& all, const BatchTimes& times, int jobs
         times.readMs / each, times.drawMs / each, times.compareMs / each);
 }
 
+/// Says the figures on stdout, and warns of rows that name nobody.
+void printAgreement(const grade::Agreement& agreement, const std::string& file, Report& report) {
+    for (const int line : agreement.unusedLines)
+        report.add(
+            {diagnosticOf(Severity::warning, message<"grade.override-unused">(), {file, line, 0})});
+    if (report.json()) {
+        report.set("agreement", {{"submissions", agreement.submissions.size()},
+                                 {"alpha", agreement.alpha.value_or(std::nan(""))},
+                                 {"tauB", agreement.tauB.value_or(std::nan(""))},
+                                 {"meanDifference", agreement.meanDifference}});
+        return;
+    }
+    std::printf("agreement of %zu submissions: alpha %.3f, tau-b %.3f, mean difference %.2f\n",
+                agreement.submissions.size(), agreement.alpha.value_or(std::nan("")),
+                agreement.tauB.value_or(std::nan("")), agreement.meanDifference);
+}
+
 /// Reads the teacher's tables beside the class; returns the file name of the overrides.
 std::string readTables(const Flags& flags, const std::vector<Submission>& submissions,
                        BatchOptions& options) {
@@ -148,13 +154,19 @@ int run(const Flags& flags, Report& report) {
     }
     if (flags.reference.empty() || flags.submissions.empty() || flags.output.empty())
         throw UsageError(message<"usage/grade">());
+    const std::vector<const grade::Format*> formats = chooseFormats(flags.formats);
+    std::vector<grade::PersonMark> marks;
+    if (!flags.agreement.empty())
+        marks = grade::readPersonMarks(readInput(flags.agreement), flags.agreement);
     BatchOptions options;
     render::PictureOptions picture;
     render::applyOption(picture, "missing", flags.missing);
     options.missing = picture.missing;
     std::vector<GradeTask> tasks = findTasks(flags.reference);
     options.rubrics = readRubrics(flags.rubric, tasks);
-    std::vector<Submission> submissions = findSubmissions(flags.submissions);
+    std::vector<Submission> submissions = flags.isSingle
+                                              ? std::vector{oneSubmission(flags.submissions)}
+                                              : findSubmissions(flags.submissions);
     const std::string overridesFile = readTables(flags, submissions, options);
     options.resultsDir = flags.output + "/results";
     std::error_code failed;
@@ -172,13 +184,14 @@ int run(const Flags& flags, Report& report) {
     worker::WorkerPool pool(poolSettings, quiet);
     Batch batch(pool, std::move(submissions), std::move(tasks), options);
     const BatchTimes times = batch.run();
+    for (const auto& [layer, state] : pool.facts().sandbox)
+        if (state.starts_with("missing"))
+            std::fprintf(stderr, "sandbox.%s=\"%s\"\n", layer.c_str(), state.c_str());
     const grade::ClassResult all = batch.result();
-    writeReport(flags.output + "/report.html", all, grade::writeHtml);
-    writeReport(flags.output + "/class.html", all, grade::writeClassPage);
-    writeReport(flags.output + "/grades.csv", all, grade::writeCsv);
-    writeReport(flags.output + "/criteria.csv", all, grade::writeCriteria);
-    writeReport(flags.output + "/junit.xml", all, grade::writeJunit);
-    writeReport(flags.output + "/report.json", all, grade::writeJson);
+    writeFormats(flags.output, formats, all, flags.isSingle);
+    if (!marks.empty())
+        printAgreement(writeAgreement(flags.output, all, marks, flags.agreement), flags.agreement,
+                       report);
     if (flags.hasFeedback) writeFeedback(flags.output + "/feedback.zip", all);
     if (!options.pseudonyms)
         for (const int line : options.overrides.unused(all))
@@ -251,6 +264,17 @@ void addGrade(CLI::App& root, Action& action) {
     command
         ->add_option("--anonymous", flags->anonymous,
                      "reports show pseudonyms; FILE keeps who is who, outside of DIR")
+        ->type_name("FILE");
+    command
+        ->add_option("--format", flags->formats,
+                     "files to write, separated by commas; default: html to json")
+        ->type_name(formatWords())
+        ->delimiter(',');
+    command->add_flag("--single", flags->isSingle,
+                      "SUBMISSIONS is one submission: a folder, a scene, an image or an archive");
+    command
+        ->add_option("--agreement", flags->agreement,
+                     "marks by people, .csv: also writes agreement.html, how far the marks agree")
         ->type_name("FILE");
     command->add_flag("--feedback", flags->hasFeedback,
                       "also writes feedback.zip, a page for each student, for Moodle");

@@ -89,6 +89,15 @@ std::vector<std::string> askForReference(worker::Backend& backend,
     }
 }
 
+/// Returns TaskResult::document.
+std::string documentOf(const Submission& submission, const grade::Subject& subject) {
+    if (submission.archive || !submission.parts.empty() || !subject.job.archive.empty()) return "";
+    std::error_code failed;
+    const std::filesystem::path path(submission.path);
+    if (!std::filesystem::is_directory(path, failed)) return submission.path;
+    return subject.job.path.empty() ? "" : (path / subject.job.path).lexically_normal().string();
+}
+
 std::string digestOf(const grade::Subject& subject) {
     std::string all = subject.job.name + "\n" + subject.job.path + "\n" +
                       contentDigest(subject.job.xml) + contentDigest(subject.job.archive) +
@@ -167,6 +176,7 @@ void Batch::gradeOne(std::size_t submission, std::size_t task) {
     try {
         worker::GradeTask::Request job;
         job.submission = readSubmission(submissions_[submission], tasks_[task]->wanted);
+        entry.document = documentOf(submissions_[submission], job.submission);
         job.submission.job.options.missing = options_.missing;
         job.reference = tasks_[task]->reference;
         job.rubric = tasks_[task]->rubric;
@@ -214,6 +224,7 @@ grade::TaskResult Batch::loadTask(std::size_t submission, std::size_t task) cons
     };
     grade::TaskResult out;
     out.task = names_[task].name;
+    if (!options_.pseudonyms) out.document = entry.document;
     if (grade::TaskGrade kept; entry.file.empty()) {
         out.result = grade::TaskFailure{entry.code, shownAs(entry.failure)};
     } else if (isWholeInto(kept, entry.file)) {

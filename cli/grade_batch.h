@@ -63,6 +63,7 @@ class Batch {
     struct Entry {
         std::string file;  ///< of the result; empty: failed
         std::string code, failure;
+        std::string document;  ///< TaskResult::document
     };
     std::vector<Entry> entries_;  ///< by submission, then task
     BatchTimes times_;

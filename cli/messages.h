@@ -7,6 +7,7 @@ namespace farol::cli {
 inline constexpr MessageRow kCliMessages[] = {
     {"asset.missing/input", "cannot be read: {reason}", {"No such file or directory"}},
     {"asset.missing/reference", "no such file or folder; give the path of the reference"},
+    {"asset.missing/submission", "no such submission; give a folder, a scene or an archive"},
     {"asset.missing/submissions",
      "no such folder or .zip; give the folder that holds the submissions"},
     {"asset.unreadable/folder", "is a folder; give the path of a file in it"},
@@ -71,6 +72,9 @@ inline constexpr MessageRow kCliMessages[] = {
      "cannot choose an image format for -o \"{path}\"; expected a name that ends with {known}, "
      "or give --format",
      {"image.bmp", ".png or .jpg"}},
+    {"usage/format-environment",
+     "--format {format} needs the environment variable {variable}; set it as the platform does",
+     {"classroom50", "CLASSROOM"}},
     {"usage/frames",
      "{count} frames; expected at most {max}; give --frames or a lower --fps",
      {"20000", "10000"}},
@@ -91,6 +95,9 @@ inline constexpr MessageRow kCliMessages[] = {
      "--uv applies to shapes only; a mesh file keeps its own texture coordinates"},
     {"usage/grade",
      "an argument is missing; expected --reference REF SUBMISSIONS_DIR -o REPORT_DIR"},
+    {"usage/grade-format",
+     "no format \"{name}\"[; did you mean \"{suggestion}\"?][; expected {known}]",
+     {"gradescop", "gradescope", "html, json, gradescope"}},
     {"usage/manual", "no subcommand \"{name}\"", {"rendr"}},
     {"usage/option",
      "{command} has no option \"{option}\"[; did you mean {suggestion}?]",
@@ -106,6 +113,7 @@ inline constexpr MessageRow kCliMessages[] = {
     {"usage/subcommand",
      "no subcommand \"{name}\"[; did you mean \"{suggestion}\"?][; expected one of {known}]",
      {"rendr", "render", "render, serve"}},
+    {"usage/validate-format", "--json and --format both choose the output; leave one of them out"},
     {"usage/word", "{command} does not expect \"{word}\"", {"render", "x"}},
     {"worker.crashed/command",
      "the process that read the files crashed by {signal}; {written} outputs were written before. "

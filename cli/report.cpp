@@ -30,9 +30,8 @@ std::string formatLine(const Diagnostic& diagnostic) {
 
 void Report::add(const Diagnostics& diagnostics) {
     Diagnostics found = json_ || verbose_ ? diagnostics : server::notable(diagnostics);
-    for (Diagnostic& finding : found)
-        if (finding.where.file.empty()) finding.where.file = input_;
-    if (json_) {
+    for (Diagnostic& finding : found) finding.where.file = fileOf(finding.where.file);
+    if (json_ || write_ != nullptr) {
         found_.insert(found_.end(), found.begin(), found.end());
         return;
     }
@@ -47,12 +46,25 @@ void Report::add(const Diagnostics& diagnostics) {
     }
 }
 
+std::string Report::fileOf(const std::string& file) const {
+    const std::string& named = file.empty() ? input_ : file;
+    if (path_.empty() || named == path_) return named;
+    if (named == input_ || named == "farol") return path_;  // the command line's own faults, too
+    const std::size_t slash = path_.rfind('/');
+    return (slash == std::string::npos ? "" : path_.substr(0, slash + 1)) + named;
+}
+
 void Report::fail(Diagnostic fault) {
     fault.where.file = "farol";
     add({std::move(fault)});
 }
 
 void Report::finish(int status) {
+    if (write_ != nullptr) {
+        write_(std::cout, found_);
+        std::cout << std::flush;
+        return;
+    }
     if (!json_) {
         if (hidden_ > 0)
             std::cerr << formatLine(hiddenNote(std::exchange(hidden_, 0), input_)) << std::endl;

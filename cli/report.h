@@ -1,7 +1,9 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <ostream>
 #include <string>
+#include <utility>
 
 #include "core/error.h"
 
@@ -14,6 +16,12 @@ class Report {
     /// From then on nothing is written before `finish`.
     void useJson() { json_ = true; }
     bool json() const { return json_; }
+    /// From then on nothing is written before `finish`, which writes the diagnostics by it; `path`
+    /// is that of the input, and files beside it are named by the same folder.
+    void useWriter(void (*write)(std::ostream&, const Diagnostics&), std::string path) {
+        write_ = write;
+        path_ = std::move(path);
+    }
     /// Without it, diagnostics of severity info are not shown as lines; JSON holds all.
     void setVerbose(bool verbose) { verbose_ = verbose; }
 
@@ -29,11 +37,16 @@ class Report {
     void finish(int status);
 
   private:
+    /// The input where `file` is empty; for a writer, the path.
+    std::string fileOf(const std::string& file) const;
+
     bool json_ = false;
+    void (*write_)(std::ostream&, const Diagnostics&) = nullptr;
     bool verbose_ = false;
     std::string input_ = "farol";
+    std::string path_;  ///< for a writer
     nlohmann::json body_ = nlohmann::json::object();
-    Diagnostics found_;  ///< kept for JSON alone
+    Diagnostics found_;  ///< kept for JSON and a writer alone
     std::size_t printed_ = 0;
     int hidden_ = 0;  ///< findings over the limit, which were not printed
 };

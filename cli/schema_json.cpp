@@ -3,6 +3,7 @@
 #include "core/number.h"
 #include "core/text.h"
 #include "generator/registry.h"
+#include "grade/formats/formats.h"
 #include "grade/rubric/rubric.h"
 #include "image/format.h"
 #include "render/options.h"
@@ -144,6 +145,21 @@ Json toJson(const server::Setting& setting) {
     return out;
 }
 
+Json toJson(const grade::Format& format) {
+    Json out{{"name", format.name},
+             {"file", format.file},
+             {"of", format.ofOne != nullptr ? "submission" : "class"},
+             {"default", format.isDefault},
+             {"summary", format.summary}};
+    for (const auto& [key, text] : {std::pair{"source", format.source},
+                                    {"sourceDate", format.sourceDate},
+                                    {"required", format.required},
+                                    {"limits", format.limits},
+                                    {"environment", format.environment}})
+        if (!text.empty()) out[key] = text;
+    return out;
+}
+
 template <typename Rows>
 Json listOf(const Rows& rows) {
     Json list = Json::array();
@@ -154,12 +170,11 @@ Json listOf(const Rows& rows) {
 }  // namespace
 
 Json tablesAsJson() {
-    return {{"elements", listOf(scene::elementSpecs())},
-            {"shapes", listOf(generator::shapes())},
-            {"formats", listOf(image::kFormats)},
-            {"options", listOf(render::optionSpecs())},
-            {"settings", listOf(server::settings())},
-            {"rubric", Json::parse(grade::rubricSchema())}};
+    return {
+        {"elements", listOf(scene::elementSpecs())},   {"shapes", listOf(generator::shapes())},
+        {"formats", listOf(image::kFormats)},          {"options", listOf(render::optionSpecs())},
+        {"settings", listOf(server::settings())},      {"gradeFormats", listOf(grade::formats())},
+        {"rubric", Json::parse(grade::rubricSchema())}};
 }
 
 }  // namespace farol::cli

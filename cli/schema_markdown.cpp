@@ -5,6 +5,7 @@
 #include "core/number.h"
 #include "core/text.h"
 #include "generator/registry.h"
+#include "grade/formats/formats.h"
 #include "grade/rubric/metrics.h"
 #include "grade/rubric/severity.h"
 #include "image/format.h"
@@ -128,6 +129,33 @@ Section settingsSection() {
     return {"settings", text};
 }
 
+Section gradeFormatsSection() {
+    std::string text = tableHead({"`--format`", "file", "one a", "is"});
+    for (const grade::Format& format : grade::formats())
+        text += tableRow({code(format.name), code(format.file),
+                          format.ofOne != nullptr ? "submission" : "class",
+                          std::string(format.summary) + (format.isDefault ? " (default)" : "")});
+    return {"grade-formats", text};
+}
+
+/// What each platform's page asks for.
+Section gradeSourcesSection() {
+    std::string text;
+    for (const grade::Format& format : grade::formats()) {
+        if (format.source.empty()) continue;
+        text += "### `" + std::string(format.name) + "`\n\n";
+        text += "- Page: <" + std::string(format.source) + "> (" + std::string(format.sourceDate) +
+                ")\n";
+        text += "- Required: " + std::string(format.required) + "\n";
+        if (!format.limits.empty()) text += "- Limits: " + std::string(format.limits) + "\n";
+        if (!format.environment.empty())
+            text += "- Environment: " + codes(split(format.environment)) + "\n";
+        text += "\n";
+    }
+    text.pop_back();
+    return {"grade-sources", text};
+}
+
 }  // namespace
 
 std::vector<Section> markdownSections() {
@@ -137,7 +165,9 @@ std::vector<Section> markdownSections() {
                                   settingsSection(),
                                   {"metrics", grade::metricsMarkdown()},
                                   {"messages", messagesMarkdown()},
-                                  {"kinds", grade::kindsMarkdown()}};
+                                  {"kinds", grade::kindsMarkdown()},
+                                  gradeFormatsSection(),
+                                  gradeSourcesSection()};
     for (const scene::ElementSpec& element : scene::elementSpecs())
         sections.push_back(elementSection(element));
     return sections;

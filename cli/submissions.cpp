@@ -196,6 +196,13 @@ std::vector<Submission> findSubmissions(const std::string& folder) {
     return collector.take();
 }
 
+Submission oneSubmission(const std::string& path) {
+    std::error_code failed;
+    const fs::path real = fs::canonical(path, failed);
+    if (failed) throw Error(message<"asset.missing/submission">(), {path, 0, 0});
+    return {path, nameToUtf8(real.filename().string()), "", ""};
+}
+
 std::vector<GradeTask> findTasks(const std::string& reference) {
     std::error_code failed;
     if (!fs::exists(reference, failed))

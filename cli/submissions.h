@@ -35,6 +35,10 @@ struct GradeTask {
 /// asset.missing if there is no such folder, grade.no-submissions if it is empty, as ClassArchive.
 std::vector<Submission> findSubmissions(const std::string& folder);
 
+/// The folder, archive, scene or image as one submission with its name. Throws Error asset.missing
+/// where there is nothing.
+Submission oneSubmission(const std::string& path);
+
 /// A file is the one task. A folder: each of its .xml files is a task (pictures beside them are
 /// textures); else each of its folders that holds .xml files; else each picture. Throws Error.
 std::vector<GradeTask> findTasks(const std::string& reference);

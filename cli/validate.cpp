@@ -3,7 +3,9 @@
 
 #include "cli/command.h"
 #include "cli/confine.h"
+#include "cli/messages.h"
 #include "cli/source.h"
+#include "grade/formats/formats.h"
 #include "render/renderer.h"
 #include "server/json.h"
 
@@ -11,16 +13,16 @@ namespace farol::cli {
 namespace {
 
 struct Flags {
-    std::string scene, assets;
+    std::string scene, assets, format;
     bool strict = false;
     ConfinementFlags confinement;
 };
 
-int inspect(const render::Job& job, Report& report) {
+int inspect(const render::Job& job, Report& report, bool isText) {
     const render::SceneReport facts = render::inspect(job);
     report.add(facts.diagnostics);
     report.merge(server::toJson(facts));
-    if (!report.json())
+    if (!report.json() && isText)
         std::cout << job.name << ": valid; " << facts.models << " models, " << facts.triangles
                   << " triangles, " << facts.lights << " lights, " << facts.textures << " textures"
                   << std::endl;
@@ -29,10 +31,15 @@ int inspect(const render::Job& job, Report& report) {
 
 int run(const Flags& flags, Report& report) {
     report.setVerbose(true);
+    if (!flags.format.empty() && report.json())
+        throw UsageError(message<"usage/validate-format">());
+    if (flags.format == "sarif") report.useWriter(grade::writeSarif, flags.scene);
+    if (flags.format == "github") report.useWriter(grade::writeGithub, flags.scene);
     const render::Job job = openSource(flags.scene, flags.assets, flags.strict);
     report.setInput(job.name);
     const Confinement confinement{flags.confinement, {assetFolder(flags.scene, flags.assets)}, {}};
-    return confine(confinement, report, [&](Outputs&) { return inspect(job, report); });
+    return confine(confinement, report,
+                   [&](Outputs&) { return inspect(job, report, flags.format.empty()); });
 }
 
 }  // namespace
@@ -49,6 +56,11 @@ void addValidate(CLI::App& root, Action& action) {
                      "folder of the files that the scene names; default the scene's own")
         ->type_name("DIR");
     command->add_flag("--strict", flags->strict, "takes warnings for errors");
+    command
+        ->add_option("--format", flags->format,
+                     "writes the findings for code review services, on stdout")
+        ->type_name("sarif|github")
+        ->check(CLI::IsMember({"sarif", "github"}));
     addConfinement(*command, flags->confinement);
     command->callback(
         [&action, flags] { action = [flags](Report& report) { return run(*flags, report); }; });

@@ -86,14 +86,23 @@ std::string shaderCache() {
     return folder.string();
 }
 
+/// Adds the folders in which the loader looks first: of a program that brings its own libraries.
+void addLibraryFolders(std::vector<std::string>& readable) {
+    const char* folders = std::getenv("LD_LIBRARY_PATH");
+    std::istringstream list(folders != nullptr ? folders : "");
+    for (std::string folder; std::getline(list, folder, ':');) readable.push_back(folder);
+}
+
 /// Files that the program and its libraries load.
 std::vector<std::string> programFiles() {
-    return {"/usr",
-            "/lib",
-            "/lib64",
-            "/sys/devices/system/cpu",
-            "/etc/ld.so.cache",
-            image::moduleFile()};
+    std::vector<std::string> files{"/usr",
+                                   "/lib",
+                                   "/lib64",
+                                   "/sys/devices/system/cpu",
+                                   "/etc/ld.so.cache",
+                                   image::moduleFile()};
+    addLibraryFolders(files);
+    return files;
 }
 
 }  // namespace
@@ -118,6 +127,7 @@ void closeSandbox(const SandboxOptions& options, Layers& layers) {
     for (const char* path : {"/usr/lib", "/lib", "/lib64", "/etc/ld.so.cache"})
         readable.emplace_back(path);
     readable.emplace_back(image::moduleFile());
+    addLibraryFolders(readable);
     readable.push_back(shaderCache());
     restrictFiles(readable, {});
     layers.emplace_back("seccomp", restrictCalls(kSocket));
@@ -130,10 +140,6 @@ Layers closeCommandLine(const SandboxOptions& options) {
     layers.emplace_back("limits", limitResources(options.memoryBytes));
     std::vector<std::string> readable = programFiles();
     readable.insert(readable.end(), options.readable.begin(), options.readable.end());
-    if (const char* folders = std::getenv("LD_LIBRARY_PATH"); folders != nullptr) {
-        std::istringstream list(folders);
-        for (std::string folder; std::getline(list, folder, ':');) readable.push_back(folder);
-    }
     const std::string landlock = restrictFiles(readable, {shaderCache()});
     layers.emplace_back("landlock", landlock);
     const bool isConfined = landlock.rfind("abi", 0) == 0;

@@ -29,6 +29,8 @@ struct TaskFailure {
 struct TaskResult {
     std::string task;  ///< its name; empty where there is one task only
     std::variant<TaskFailure, TaskGrade> result;
+    /// Path of the document as the command line names it; empty where it is in an archive.
+    std::string document = {};
 
     const TaskGrade* grade() const { return std::get_if<TaskGrade>(&result); }
     const TaskFailure* failure() const { return std::get_if<TaskFailure>(&result); }

@@ -73,8 +73,8 @@ TEST_CASE("the bootstrap's interval is repeatable, holds alpha, and narrows with
 }
 
 TEST_CASE("tau-b is the worked values") {
-    // The example of SciPy's documentation of kendalltau, with ties on both sides: of the 10 pairs 2
-    // agree and 6 do not; 8 and 9 are untied.
+    // The example of SciPy's documentation of kendalltau, with ties on both sides: of the 10 pairs
+    // 2 agree and 6 do not; 8 and 9 are untied.
     CHECK(*kendallTauB({12, 2, 1, 12, 2}, {1, 4, 7, 1, 0}) == Approx(-0.47140452079103173));
     CHECK(*kendallTauB({12, 2, 1, 12, 2}, {1, 4, 7, 1, 0}) == Approx(-4.0 / std::sqrt(72.0)));
     // Two rankings without ties, counted by hand: 21 pairs agree and 24 do not.

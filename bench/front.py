@@ -1,4 +1,4 @@
-"""The front of budget_ms, fitted to bench/results/quality.json: render/plan/quality_front.inc.
+"""The front of budget_ms, fitted to what `scripts/bench front` measures: render/plan/quality_front.inc.
 
 A frame's CPU time on all cores is modelled as fixed + pixels * fill(samples) + triangles *
 cost(samples), by least squares of relative errors with nothing negative. The order of candidates is
@@ -94,7 +94,7 @@ def per_light(scale):
 def write(data, scale, path):
     machine = data["machine"]
     fixed, fill, mesh, ratio = fit(data, machine["cores"])
-    lines = ["// Made by `scripts/bench front` of bench/results/quality.json; not written by hand.",
+    lines = ["// Made by `scripts/bench front`; not written by hand.",
              f"// Measured on {machine['cores']} cores of {machine['cpu']}; CPU time over cores.",
              f"constexpr double kFixedMs = {fixed:.3g};",
              f"constexpr double kTrianglesOpen = {ratio:.3g};",

@@ -1,6 +1,7 @@
 // Time against error: a scene at many settings, turn by turn in one process, each measured against
 // the ray caster of tests/support/ray_caster:
-//   bench_quality SCENE.xml|mixed [--runs N] [--quick] [--cap N] [name=value ...]
+//   bench_quality SCENE.xml|mixed [--runs N] [--quick] [--front] [--cap N] [name=value ...]
+// --front: only the settings that budget_ms chooses from.
 // A line of JSON for the scene, then one a setting. "mixed": 1,000 spheres, cones, cylinders, tori
 // and ellipsoids. Options width and height are the picture's; what a setting holds wins.
 #include <cstdio>
@@ -32,7 +33,7 @@ struct Setting {
     }
 };
 
-std::vector<Setting> settings(bool quick) {
+std::vector<Setting> settings(bool quick, bool front) {
     using enum scene::Shading;
     std::vector<Setting> all;
     const std::vector<double> errors =
@@ -40,9 +41,10 @@ std::vector<Setting> settings(bool quick) {
     const std::vector<int> fixed =
         quick ? std::vector{16, 64} : std::vector{8, 16, 32, 64, 128, 256};
     for (const double error : errors)
-        for (const int samples : std::vector{1, 4, 16}) all.push_back({0, error, phong, samples});
+        for (const int samples : std::vector{1, 4, 8, 16})
+            all.push_back({0, error, phong, samples});
+    if (front) return all;
     all.push_back({0, 1.0, gouraud, 4});
-    all.push_back({0, 0.25, phong, 8});
     all.push_back({0, 0.25, phong, 4, scene::Filter::linear});
     if (!quick) all.push_back({0, 1.0, phong, 1, scene::Filter::nearest});
     for (const int n : fixed) {
@@ -87,13 +89,15 @@ struct Runner {
 }  // namespace
 
 int main(int count, char** arguments) try {
-    bool quick = false;
+    bool quick = false, front = false;
     int cap = 16;
     std::vector<char*> words;
     for (int i = 0; i < count; ++i) {
         const std::string word(arguments[i]);
         if (word == "--quick")
             quick = true;
+        else if (word == "--front")
+            front = true;
         else if (word == "--cap" && i + 1 < count)
             cap = std::max(1, std::atoi(arguments[++i]));
         else
@@ -129,7 +133,7 @@ int main(int count, char** arguments) try {
     std::vector<json> rows;
     int coarse = 0;              // the last fixed number of divisions, and
     std::int64_t triangles = 0;  // what it made
-    for (const Setting& setting : settings(quick)) {
+    for (const Setting& setting : settings(quick, front)) {
         // Twice the divisions are four times the triangles: no figures of frames of seconds.
         if (setting.divisions > coarse && triangles > kMaxTriangles / 4) continue;
         Runner one{setting, {}, {}, {}, {}, {}, {}};

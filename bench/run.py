@@ -79,17 +79,20 @@ def machine(preset):
             "preset": preset, "date": time.strftime("%Y-%m-%d")}
 
 
-def quality(bench, progress):
+def quality(bench, progress, suite="quality"):
     """Time against error of the example scenes, ours against fixed divisions."""
     rows = []
     names = ["teapots", "primitives", "police-box"] if bench.quick else QUALITY_SCENES
+    if suite == "front":
+        names = [name for name in names if name != "mixed"]  # it has no weight there
     size = (160, 120) if bench.quick else (240, 180)
     for i, name in enumerate(names):
-        progress.step("quality", i / len(names), name)
+        progress.step(suite, i / len(names), name)
         scene = name if name == "mixed" else f"scenes/{name}/scene.xml"
         arguments = [scene, "--runs", 3 if bench.quick else 5, "--cap", 16,
                      f"width={size[0]}", f"height={size[1]}"]
-        found = bench.lines("bench_quality", *arguments, *(["--quick"] if bench.quick else []))
+        found = bench.lines("bench_quality", *arguments, *(["--quick"] if bench.quick else []),
+                            *(["--front"] if suite == "front" else []))
         if not found:
             continue
         if found[0]["leftOut"]:
@@ -167,10 +170,7 @@ def main():
     parser.add_argument("--plots", action="store_true", help="only draws what is in bench/results")
     given = parser.parse_args()
     if given.suites == ["front"]:
-        read = [json.loads((ROOT / f"bench/results/{name}.json").read_text())
-                for name in ("quality", "scale")]
-        front.write(*read, ROOT / "render" / "quality_front.inc")
-        return 0
+        return write_front(given)
     names = given.suites or list(SUITES)
     for name in names:
         if name not in SUITES:
@@ -196,6 +196,17 @@ def main():
             draw(name, json.loads(path.read_text()), plots)
         progress.finish(name)
     progress.say(f"done: {results.relative_to(ROOT)}, {plots.relative_to(ROOT)}")
+    return 0
+
+
+def write_front(given):
+    """Measures the settings that budget_ms chooses from; writes its front, for the next build."""
+    bench = Bench(given.binaries, False, Progress({"front": 120}))
+    rows = rounded(quality(bench, bench.progress, suite="front"))
+    scale = json.loads((ROOT / "bench/results/scale.json").read_text())
+    front.write({"machine": machine(bench.binaries.resolve().name), "results": rows}, scale,
+                ROOT / "render" / "plan" / "quality_front.inc")
+    bench.progress.say("done: render/plan/quality_front.inc")
     return 0
 
 

@@ -196,7 +196,7 @@ Picture Renderer::State::draw(const Prepared& prepared, const Placed& placed, co
     picture.quality = resolveBudget(options, prepared.scene, placed);
     FramePlan frame =
         plan(prepared.scene, placed, options, *prepared.assets, meshes, painter.facts(),
-             job.drawUnseen ? Skipping{false, false, false, false} : Skipping{});
+             job.drawUnseen ? Skipping{false, false, false, false, false} : Skipping{});
     budget.spend(frame);
     picture.camera = frame.camera;
     takeFindings(picture.diagnostics, frame.findings, job);

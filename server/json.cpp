@@ -74,6 +74,8 @@ json toJson(const render::Stats& stats) {
             {"coarsening", stats.coarsening},
             {"coplanar", stats.coplanar},
             {"refined", stats.refined},
+            {"occluders", stats.occluders},
+            {"overdraw", stats.overdraw},
             {"lightsSkipped", stats.lightsSkipped}};
 }
 

@@ -19,6 +19,7 @@ namespace farol::render::gl {
     X(CheckFramebufferStatus, PFNGLCHECKFRAMEBUFFERSTATUSPROC)                       \
     X(ClearBufferfv, PFNGLCLEARBUFFERFVPROC)                                         \
     X(ClipControl, PFNGLCLIPCONTROLPROC)                                             \
+    X(ColorMask, PFNGLCOLORMASKPROC)                                                 \
     X(CompileShader, PFNGLCOMPILESHADERPROC)                                         \
     X(CreateProgram, PFNGLCREATEPROGRAMPROC)                                         \
     X(CreateShader, PFNGLCREATESHADERPROC)                                           \

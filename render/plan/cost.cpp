@@ -13,14 +13,18 @@ namespace farol::render {
 namespace {
 
 // Core-seconds, the largest seen for each of several scenes (docs/benchmarks/rendering.md).
-constexpr double kPixelCost = 60e-9;      // once
-constexpr double kPixelPassCost = 35e-9;  // clear, resolve and read a pass, of the target's pixels
-constexpr double kFragmentCost = 6e-9;    // without light
-constexpr double kLightCost = 18e-9;      // of a fragment
-constexpr double kSurfaceCost = 25e-9;    // of a fragment that takes its normal from a surface
+constexpr double kPixelCost = 60e-9;  // once
+// Clear and read a pass, of the target's pixels: of a process's first frame, whose pages are fresh;
+// a tenth in later ones.
+constexpr double kPixelPassCost = 35e-9;
+constexpr double kFragmentCost = 6e-9;  // without light
+constexpr double kLightCost = 18e-9;    // of a fragment
+constexpr double kSurfaceCost = 25e-9;  // of a fragment that takes its normal from a surface
 constexpr double kTexelCost = 12e-9, kAnisotropicCost = 36e-9;
 constexpr double kTriangleCost = 0.25e-6, kLineCost = 1.5e-6;  // of a pass
 constexpr double kCallCost = 15e-6;                            // of a pass
+// A pass of depths alone, measured against frames without it.
+constexpr double kDepthCallCost = 5e-6, kDepthTriangleCost = 0.15e-6, kDepthFragmentCost = 1.5e-9;
 constexpr double kLineWidth = 4.0;  // px that a line's fragments are counted as
 
 /// How many layers of triangles a mesh has before each other, about: 1 for closed shapes.
@@ -38,20 +42,6 @@ double layersOf(const MeshData& data) {
     return faces > 0.0 ? std::max(1.0, area / (2.0 * faces)) : 1.0;
 }
 
-double fragmentCost(const FramePlan& plan, const DrawItem& item) {
-    double cost = kFragmentCost;
-    if (static_cast<std::size_t>(item.lightSet) < plan.lightSets.size())
-        cost += kLightCost *
-                static_cast<double>(plan.lightSets[static_cast<std::size_t>(item.lightSet)].size());
-    if (item.surface) cost += kSurfaceCost;
-    if (item.texture >= 0)
-        cost += plan.textures[static_cast<std::size_t>(item.texture)].filter ==
-                        scene::Filter::anisotropic
-                    ? kAnisotropicCost
-                    : kTexelCost;
-    return cost;
-}
-
 /// How often the passes draw a model, how often by its outlines, and how many times they shade a
 /// pixel of it.
 struct DrawShare {
@@ -61,6 +51,7 @@ struct DrawShare {
 void addShares(const FramePlan& plan, const Pass& pass, const PassItem& item,
                std::vector<DrawShare>& shares) {
     if (item.kind != PassItem::Kind::models) return;
+    if (pass.state.depthOnly) return;  // saves more than it costs, or is not there
     const double shadings = static_cast<double>(pass.target.scale) * pass.target.scale *
                             (pass.target.samples > 1 ? 1.5 : 1.0) * pass.target.rows /
                             plan.view.size.y;
@@ -96,13 +87,33 @@ std::string rounded(double coreSeconds) {
 
 }  // namespace
 
+double fragmentCost(const FramePlan& plan, const DrawItem& item) {
+    double cost = kFragmentCost;
+    if (static_cast<std::size_t>(item.lightSet) < plan.lightSets.size())
+        cost += kLightCost *
+                static_cast<double>(plan.lightSets[static_cast<std::size_t>(item.lightSet)].size());
+    if (item.surface) cost += kSurfaceCost;
+    if (item.texture >= 0)
+        cost += plan.textures[static_cast<std::size_t>(item.texture)].filter ==
+                        scene::Filter::anisotropic
+                    ? kAnisotropicCost
+                    : kTexelCost;
+    return cost;
+}
+
+double depthCostOf(double triangles, double fragments, int passes) {
+    return passes * (kDepthCallCost + triangles * kDepthTriangleCost) +
+           fragments * kDepthFragmentCost;
+}
+
 FrameCost estimateCost(const FramePlan& plan) {
     FrameCost cost;
     const double pixels = static_cast<double>(plan.view.size.x) * plan.view.size.y;
     cost.pixels = pixels * kPixelCost;
     for (const Pass& pass : plan.passes)
-        cost.pixels += kPixelPassCost * pass.target.scale * pass.target.scale * pass.target.rows *
-                       plan.view.size.x;
+        if (!pass.state.depthOnly)
+            cost.pixels += kPixelPassCost * pass.target.scale * pass.target.scale *
+                           pass.target.rows * plan.view.size.x;
     std::vector<DrawShare> shares(plan.items.size());
     for (const Pass& pass : plan.passes)
         for (const PassItem& item : pass.items) addShares(plan, pass, item, shares);

@@ -19,6 +19,11 @@ struct FrameCost {
 
 FrameCost estimateCost(const FramePlan& plan);
 
+/// Core-seconds to shade a fragment of the item.
+double fragmentCost(const FramePlan& plan, const DrawItem& item);
+/// Core-seconds of the depths alone of a model: `fragments` of all passes together.
+double depthCostOf(double triangles, double fragments, int passes);
+
 /// The core-seconds that frames may cost together.
 class CostBudget {
   public:

@@ -101,6 +101,7 @@ enum class Polygons { filled, outlined, cornered };
 
 struct PassState {
     bool depthTest = true;
+    bool depthOnly = false;                ///< no colours, and depths a little behind the surfaces'
     Polygons polygons = Polygons::filled;  ///< of models
 };
 
@@ -122,6 +123,7 @@ struct FrameStyle {
     scene::Viewer viewer = scene::Viewer::infinite;
     scene::Specular specular = scene::Specular::single;
     bool mergesCalls = true;  ///< of models that differ in their place alone
+    bool depthFirst = true;   ///< in a pass before the shading one, where that saves time
     glm::vec4 background{0.0F, 0.0F, 0.0F, 1.0F};
     int backgroundTexture = -1, skyboxTexture = -1;  ///< indices into FramePlan::textures
 };

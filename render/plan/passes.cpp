@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "render/plan/batches.h"
+#include "render/plan/depth_pass.h"
 #include "render/plan/sampling.h"
 
 namespace farol::render {
@@ -127,12 +128,27 @@ void addItems(const FramePlan& plan, Pass& pass) {
         pass.items.push_back({PassItem::Kind::picture, 0, 0, plan.style.backgroundTexture});
 }
 
-/// As many as keep a target of larger scale within kMaxTargetPixels.
+/// So many that a target of larger scale stays within kMaxTargetPixels, in bands of one height: a
+/// target of another size costs its pages anew.
 int rowsOfTarget(const glm::ivec2& size, const Sampling& sampling) {
     constexpr std::int64_t kMaxTargetPixels = 32 << 20;  // 256 MiB of colour and depth
     if (sampling.scale == 1) return size.y;
     const std::int64_t row = std::int64_t{size.x} * sampling.scale * sampling.scale;
-    return static_cast<int>(std::clamp<std::int64_t>(kMaxTargetPixels / row, 1, size.y));
+    const auto most = static_cast<int>(std::clamp<std::int64_t>(kMaxTargetPixels / row, 1, size.y));
+    const int bands = (size.y + most - 1) / most;
+    return (size.y + bands - 1) / bands;
+}
+
+/// The depths of models that `pass` draws, so that it shades less of what they hide.
+Pass depthPassOf(const Pass& pass, const std::vector<PassItem>& occluders) {
+    Pass depths = pass;
+    depths.target.clearColor.reset();
+    depths.target.output = PassOutput::none;
+    depths.state.depthOnly = true;
+    depths.features = {Feature::unlit};
+    depths.itemFeatures = {Feature::eyePositions};
+    depths.items = occluders;
+    return depths;
 }
 
 }  // namespace
@@ -162,13 +178,27 @@ void composePasses(FramePlan& plan, const GlFacts& gl) {
     chooseFeatures(style, pass);
     if (sampling.scale > 1) pass.features.add(Feature::supersampled);
     addItems(plan, pass);
-    const int rowsAtOnce = rowsOfTarget(size, sampling);
+    DepthPass depths;
+    // The GL's samples share their shading already; flat meshes have buffers of their own.
+    if (style.depthFirst && sampling.samples == 1 && pass.state.polygons == Polygons::filled &&
+        !pass.features.has(Feature::flat)) {
+        const int shadings = sampling.scale * sampling.scale * sampling.passes;
+        depths = planDepthPass(plan, shadings, sampling.passes);
+        plan.stats.occluders = depths.models;
+        plan.stats.overdraw = depths.overdraw;
+    }
+    pass.target.rows = rowsOfTarget(size, sampling);
     plan.passes.clear();
-    for (int row = 0; row < size.y; row += rowsAtOnce) {
-        pass.target.firstRow = row;
-        pass.target.rows = std::min(rowsAtOnce, size.y - row);
+    for (int row = 0; row < size.y; row += pass.target.rows) {
+        // The last band may draw rows of the one before again.
+        pass.target.firstRow = std::min(row, size.y - pass.target.rows);
         for (int i = 0; i < sampling.passes; ++i) {
             pass.clip = movedClip(plan.view, passOffset(i, sampling));
+            pass.target.clearDepth = true;
+            if (!depths.occluders.empty()) {
+                plan.passes.push_back(depthPassOf(pass, depths.occluders));
+                pass.target.clearDepth = false;
+            }
             plan.passes.push_back(pass);
         }
     }

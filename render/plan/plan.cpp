@@ -73,6 +73,7 @@ class Planner {
         const glm::ivec2 size = pictureSize(scene_, options_);
         if (std::max(size.x, size.y) > gl_.maxTargetSide) failSize(size, gl_.maxTargetSide);
         style_.mergesCalls = skipping_.calls;
+        style_.depthFirst = skipping_.hidden;
         const InstanceList& list = placed_.scene;
         chooseStyle(list);
         plan_.camera =

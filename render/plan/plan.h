@@ -22,6 +22,7 @@ struct Skipping {
     bool betweenSamples = true;  ///< models too small to cover a sample of any pixel
     bool lights = true;          ///< lights that add nothing to a model
     bool calls = true;           ///< draw calls of models that differ in their place alone
+    bool hidden = true;          ///< shading of pixels that another model covers later
 };
 
 /// Plans one frame of a resolved scene that was placed at options.timeS, for a GL. Throws Error as

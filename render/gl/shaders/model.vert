@@ -47,6 +47,8 @@ COVERED out vec3 unitCovered;
 #endif
 #endif
 uniform mat4 clipFromView;
+// The depths of a pass of depths alone are those of the shaded one.
+invariant gl_Position;
 
 #if (defined(TEXGEN_OBJECT) || defined(TEXGEN_EYE)) && !defined(SURFACE)
 uniform vec4 planeS;

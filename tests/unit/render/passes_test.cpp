@@ -138,20 +138,24 @@ TEST_CASE("samples of a pixel lie in its middle as a whole, few in one row or co
     }
 }
 
-TEST_CASE("a large target is drawn in bands of rows") {
-    render::FrameStyle style;
-    style.samples = 8;
-    FramePlan plan = frameOf(style);
-    plan.view.size = {4096, 4096};
-    render::composePasses(plan, support::fourSamples());
-    REQUIRE(plan.passes.size() > 1);
-    int row = 0;
-    for (const render::Pass& pass : plan.passes) {
-        CHECK(pass.target.firstRow == row);
-        CHECK(std::int64_t{9} * 4096 * pass.target.rows <= 32 << 20);
-        row += pass.target.rows;
+TEST_CASE("a large target is drawn in bands of as many rows each") {
+    for (const glm::ivec2 size : {glm::ivec2(4096, 4096), {2048, 2048}, {4000, 1999}}) {
+        render::FrameStyle style;
+        style.samples = 8;
+        FramePlan plan = frameOf(style);
+        plan.view.size = size;
+        render::composePasses(plan, support::fourSamples());
+        REQUIRE(plan.passes.size() > 1);
+        int drawn = 0;
+        for (const render::Pass& pass : plan.passes) {
+            CHECK(pass.target.rows == plan.passes[0].target.rows);
+            CHECK(pass.target.firstRow <= drawn);
+            CHECK(pass.target.firstRow + pass.target.rows > drawn);
+            CHECK(std::int64_t{9} * size.x * pass.target.rows <= 32 << 20);
+            drawn = pass.target.firstRow + pass.target.rows;
+        }
+        CHECK(drawn == size.y);
     }
-    CHECK(row == 4096);
 }
 
 TEST_CASE("a shader has what its model needs and no more") {

@@ -114,9 +114,9 @@ class Planner {
         style_.layer = options_.layer;
         // Ids, depths and normals have no meaning between two surfaces.
         if (style_.layer != Layer::color) style_.samples = 1;
-        // More than four samples resolve finer outlines: a mesh with a larger error than their
-        // distance would waste them. `error` is an upper bound, so that less is allowed.
-        if (style_.samples > 4) errorPx_ = std::min(errorPx_, 1.0 / style_.samples);
+        // A mesh with a larger error than the samples' distance would waste them. `error` is an
+        // upper bound, so that less is allowed.
+        errorPx_ = errorOf(errorPx_, style_.samples);
         if (crowd_.isOneSample) style_.samples = 1;
         errorPx_ *= crowd_.coarsening;
         const bool surface = style_.shading == scene::Shading::flat ||

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "render/plan/plan.h"
+#include "render/plan/sampling.h"
 
 namespace farol::render {
 namespace {
@@ -41,8 +42,9 @@ void count(const InstanceList& list, FrameLoad& load) {
 double expectedMs(const FrameLoad& load, int samples, double errorPx) {
     const SampleCost& cost = costOf(samples);
     // A shape of r px has about r / error triangles, and r is about the root of pixels / models.
-    const double triangles =
-        load.writtenTriangles + kTrianglesOpen * std::sqrt(load.pixels * load.openModels) / errorPx;
+    const double triangles = load.writtenTriangles + kTrianglesOpen *
+                                                         std::sqrt(load.pixels * load.openModels) /
+                                                         errorOf(errorPx, samples);
     return kFixedMs +
            1e-6 * load.pixels * cost.msPerMegapixel *
                (1.0 + kPerLight * std::max(0.0, load.lights - 1.0)) +

@@ -21,6 +21,10 @@ Sampling chooseSampling(int wanted, const GlFacts& gl, int side) {
     return kLarger.back();
 }
 
+double errorOf(double errorPx, int samples) {
+    return samples > 4 ? std::min(errorPx, 1.0 / samples) : errorPx;
+}
+
 glm::dvec2 passOffset(int pass, const Sampling& sampling) {
     if (sampling.passes == 1) return glm::dvec2(0.0);
     constexpr std::array<glm::dvec2, 2> kTwo{{{-1.0 / 4, 1.0 / 4}, {1.0 / 4, -1.0 / 4}}};

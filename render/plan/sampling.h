@@ -18,6 +18,10 @@ struct Sampling {
 /// longer one of the image, px.
 Sampling chooseSampling(int wanted, const GlFacts& gl, int side);
 
+/// The error of tessellation, px, where `errorPx` is asked for: more than four samples resolve
+/// finer outlines.
+double errorOf(double errorPx, int samples);
+
 /// By how much a pass moves the image, px, -0.5..0.5: so that no two samples of all passes share a
 /// row or column where their number allows.
 glm::dvec2 passOffset(int pass, const Sampling& sampling);

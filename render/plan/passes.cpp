@@ -139,7 +139,7 @@ int rowsOfTarget(const glm::ivec2& size, const Sampling& sampling) {
     return (size.y + bands - 1) / bands;
 }
 
-/// The depths of models that `pass` draws, so that it shades less of what they hide.
+/// The depths of models that `pass` draws: it then shades less of the models that they hide.
 Pass depthPassOf(const Pass& pass, const std::vector<PassItem>& occluders) {
     Pass depths = pass;
     depths.target.clearColor.reset();
@@ -179,7 +179,7 @@ void composePasses(FramePlan& plan, const GlFacts& gl) {
     if (sampling.scale > 1) pass.features.add(Feature::supersampled);
     addItems(plan, pass);
     DepthPass depths;
-    // The GL's samples share their shading already; flat meshes have buffers of their own.
+    // The GL's samples share their shading already; flat meshes have separate buffers.
     if (style.depthFirst && sampling.samples == 1 && pass.state.polygons == Polygons::filled &&
         !pass.features.has(Feature::flat)) {
         const int shadings = sampling.scale * sampling.scale * sampling.passes;

@@ -10,6 +10,7 @@
 #include "image/image_file.h"
 #include "render/gl/library.h"
 #include "render/gl/painter.h"
+#include "render/plan/background.h"
 #include "render/plan/camera.h"
 #include "render/plan/cost.h"
 #include "render/plan/instances.h"
@@ -120,18 +121,32 @@ void takeFindings(Diagnostics& diagnostics, const Diagnostics& findings, const J
     refuseErrors(diagnostics, job);
 }
 
-/// Warns where the skybox's image is not a cross. Throws as imageSize.
-Diagnostics checkSkybox(const scene::Skybox& skybox, const scene::Assets& assets) {
-    TextureRef ref;
-    ref.path = skybox.path;
-    ref.where = skybox.where;
+/// Warnings that the size of a texture's image gives. Throws as imageSize: a damaged head is news
+/// to the author.
+Diagnostics checkSize(const TextureRef& ref, const scene::Assets& assets) {
     const UndecodedTexture texture = openTexture(ref, assets);
-    if (isCross(texture.width, texture.height)) return {};
-    TextureNote note;
-    note.kind = TextureNote::Kind::noCross;
-    note.width = texture.width;
-    note.height = texture.height;
-    return {warningOf(note, ref)};
+    Diagnostics warnings;
+    for (const TextureNote& note : sizeNotes(ref.cube, texture.width, texture.height, GlFacts{}))
+        warnings.push_back(warningOf(note, ref));
+    return warnings;
+}
+
+/// Likewise of the image behind the scene, as option or scene name it, and of the skybox.
+Diagnostics checkSurroundings(const scene::Scene& scene, const PictureOptions& options,
+                              const scene::Assets& assets) {
+    Diagnostics warnings;
+    const auto add = [&](const std::string& path, bool isCube, const Location& where) {
+        if (path.empty()) return;
+        TextureRef ref;
+        ref.path = path;
+        ref.cube = isCube;
+        ref.where = where;
+        for (Diagnostic& one : checkSize(ref, assets)) warnings.push_back(std::move(one));
+    };
+    add(chooseBackground(scene, options, assets).path, false,
+        options.background ? Location{} : scene.background.where);
+    if (scene.skybox) add(scene.skybox->path, true, scene.skybox->where);
+    return warnings;
 }
 
 }  // namespace
@@ -194,9 +209,10 @@ Picture Renderer::State::draw(const Prepared& prepared, const Placed& placed, co
 
     PictureOptions options = job.options;
     picture.quality = resolveBudget(options, prepared.scene, placed);
+    Skipping skipping = job.drawUnseen ? Skipping{false, false, false, false, false} : Skipping{};
+    skipping.notFinite = !job.markNotFinite;
     FramePlan frame =
-        plan(prepared.scene, placed, options, *prepared.assets, meshes, painter.facts(),
-             job.drawUnseen ? Skipping{false, false, false, false, false} : Skipping{});
+        plan(prepared.scene, placed, options, *prepared.assets, meshes, painter.facts(), skipping);
     budget.spend(frame);
     picture.camera = frame.camera;
     takeFindings(picture.diagnostics, frame.findings, job);
@@ -268,21 +284,16 @@ SceneReport inspect(const Job& job) {
         addElements(report,
                     collect(*scene.entity, job.options.timeS, false, *prepared.assets, meshes));
     std::set<std::string> textures;
-    for (const Instance& instance : list.instances) {
+    for (const Instance& instance : list.instances)
         report.triangles += static_cast<std::int64_t>(instance.mesh->mesh.triangles());
-        const auto& texture = instance.model->texture;
-        if (!texture || texture->path.empty() || !textures.insert(texture->path).second) continue;
-        const auto bytes = prepared.assets->read(texture->path);
-        if (!bytes)
-            throw Error(message<"asset.missing/image-file">("file"_arg = uncut(texture->path)),
-                        texture->where);
-        image::imageSize(*bytes, texture->path,
-                         texture->where);  // reports a damaged head
-        report.textureBytes += static_cast<std::int64_t>(bytes->size());
+    for (const TextureRef& ref : list.textures) {
+        if (ref.path.empty() || !textures.insert(ref.path).second) continue;
+        takeFindings(report.diagnostics, checkSize(ref, *prepared.assets), job);
+        const auto bytes = prepared.assets->read(ref.path);
+        report.textureBytes += bytes ? static_cast<std::int64_t>(bytes->size()) : 0;
     }
     report.textures = static_cast<int>(textures.size());
-    if (scene.skybox && !scene.skybox->path.empty())
-        takeFindings(report.diagnostics, checkSkybox(*scene.skybox, *prepared.assets), job);
+    takeFindings(report.diagnostics, checkSurroundings(scene, job.options, *prepared.assets), job);
     return report;
 }
 

@@ -37,6 +37,8 @@ struct Job {
     std::string path = {};
     /// Leaves nothing out that cannot be seen: tests show that the picture is the same.
     bool drawUnseen = false;
+    /// Draws magenta where light, place or normal is NaN or infinite: for tests.
+    bool markNotFinite = false;
 };
 
 /// Wall time of each stage, ms.

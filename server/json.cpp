@@ -73,7 +73,7 @@ json toJson(const render::Stats& stats) {
             {"coarsened", stats.coarsened},
             {"coarsening", stats.coarsening},
             {"coplanar", stats.coplanar},
-            {"refined", stats.refined},
+            {"exactDepth", stats.exactDepth},
             {"occluders", stats.occluders},
             {"overdraw", stats.overdraw},
             {"lightsSkipped", stats.lightsSkipped}};

@@ -12,7 +12,8 @@ namespace {
 
 bool sameSurface(const DrawItem& a, const DrawItem& b) {
     if (!a.surface || !b.surface) return !a.surface && !b.surface;
-    return *a.surface == *b.surface && a.unitFromObject == b.unitFromObject;
+    return *a.surface == *b.surface && a.unitFromObject == b.unitFromObject &&
+           a.hasExactDepth == b.hasExactDepth;
 }
 
 bool sameButPlace(const DrawItem& a, const DrawItem& b) {

@@ -28,9 +28,8 @@ bool MeshChoice::showsSurface() const {
     return !drawsLines(style_) && style_.shading != scene::Shading::chess;
 }
 
-bool MeshChoice::refine(DrawItem& item, const Instance& instance, const InstanceList& list,
-                        const ViewTransform& view, glm::dmat4& viewFromObject,
-                        const Closeness& close) {
+void MeshChoice::refine(DrawItem& item, const Instance& instance, const InstanceList& list,
+                        const ViewTransform& view, glm::dmat4& viewFromObject, bool isClose) {
     const scene::Model& model = *instance.model;
     std::optional<ProjectedSurface> seen;
     if (instance.surface >= 0 && showsSurface())
@@ -40,24 +39,25 @@ bool MeshChoice::refine(DrawItem& item, const Instance& instance, const Instance
     if (seen) {
         const double finestPx = finestErrorPx(*seen, fine, errorPx_);
         const bool isShort = isTooClose(*seen) || finestPx > errorPx_;
-        if (isShort && takeCap(item, instance, seen->surface, view, viewFromObject)) return false;
+        if (isShort && takeCap(item, instance, seen->surface, view, viewFromObject)) return;
         warnOfOutline(model, finestPx * outlineShare(*seen));
         if (isTooClose(*seen)) {
             seen.reset();
             fine = finenessOf(instance, seen, view, viewFromObject);
         }
     }
-    const bool isFiner = seen && makeFiner(fine, close, glm::dmat3(viewFromObject));
     item.mesh = meshes_.get(*instance.mesh, model, assets_, fine);
-    if (!seen) return false;
+    if (!seen) return;
     const glm::dvec3& balance = item.mesh->balance;
     for (int i = 0; i < 3; ++i) viewFromObject[i] *= balance[i];
-    if (errorPx_ <= kMostFollowedPx &&
-        seen->surface.kind->isNeeded(seen->surface, item.mesh->fullTurn, model.texture.has_value()))
+    const generator::SurfaceKind& kind = *seen->surface.kind;
+    const bool isFollowed = errorPx_ <= kMostFollowedPx;
+    item.hasExactDepth = isFollowed && isClose && kind.raySteps > 0;
+    if (item.hasExactDepth || (isFollowed && kind.isNeeded(seen->surface, item.mesh->fullTurn,
+                                                           model.texture.has_value())))
         item.surface = seen->surface;
     item.unitFromObject = glm::vec3(balance / seen->surface.lengths);
     item.surfaceEye = glm::vec3(seen->eye);
-    return isFiner;
 }
 
 generator::Fineness MeshChoice::finenessOf(const Instance& instance,

@@ -2,7 +2,6 @@
 
 #include <set>
 
-#include "render/plan/close_surfaces.h"
 #include "render/plan/frame_plan.h"
 #include "render/plan/instances.h"
 #include "render/plan/near_mesh.h"
@@ -23,9 +22,9 @@ class MeshChoice {
 
     /// Chooses the mesh of an open model, and whether its pixels follow their rays to its surface.
     /// Scales and moves `viewFromObject` as that mesh asks for. Adds warnings scene.outline.
-    /// Returns whether it is finer because another surface is close.
-    bool refine(DrawItem& item, const Instance& instance, const InstanceList& list,
-                const ViewTransform& view, glm::dmat4& viewFromObject, const Closeness& close);
+    /// `isClose`: its pixels have the depth of its surface, where it has one (needExactDepth).
+    void refine(DrawItem& item, const Instance& instance, const InstanceList& list,
+                const ViewTransform& view, glm::dmat4& viewFromObject, bool isClose);
     /// Places the mesh in double where floats would move it on the screen. Returns false where
     /// nothing of it is in view.
     bool placeNear(DrawItem& item, const Instance& instance, const ViewTransform& view,

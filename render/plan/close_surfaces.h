@@ -1,28 +1,23 @@
 #pragma once
 
-#include <cstddef>
 #include <vector>
 
-#include "generator/registry.h"
+#include "render/plan/camera.h"
+#include "render/plan/frustum.h"
 #include "render/plan/instances.h"
 
 namespace farol::render {
 
-/// How much finer than `error` a mesh has to be because another exact surface is nearly the same:
-/// where two nest or cross, their meshes' errors decide which one shows.
-struct Closeness {
-    double share = 1.0;  ///< of the error that is left; 1: nothing is near
-    double gap = 0.0;    ///< an error that is small enough at any share, world units
-};
+/// Whether the pixels of each instance need the depth of its exact surface: another instance comes
+/// so near to that surface that the meshes' errors, `errorPx` each, could decide which one shows.
+/// Looks at pairs of which one is an open exact surface that rays can be followed to, both in view
+/// (`sides` of the list's instances). May say yes within 2 % of a surface's size. Empty: of none.
+/// Looks at kMaxExactSurfaces such surfaces and kMaxExactPairs pairs at most: frames of more are
+/// left as their meshes are.
+std::vector<bool> needExactDepth(const InstanceList& list, const std::vector<Frustum::Side>& sides,
+                                 const ViewTransform& view, double errorPx);
 
-/// One of each instance; empty where no two open exact surfaces have their middles and sizes within
-/// a tenth and half of one's points within 3 % of the other. In such a pair, with the median gap g
-/// as a share of the size, the border of a crossing moves by about twice the meshes' error over g:
-/// the share is g. Nested ones need an eighth of their smallest gap. Compares 256 surfaces at
-/// most: crowds are not refined.
-std::vector<Closeness> closeSurfaces(const InstanceList& list);
-
-/// Makes the mesh of an instance with that linear part finer, where it has to be. Returns whether.
-bool makeFiner(generator::Fineness& fine, const Closeness& close, const glm::dmat3& linear);
+inline constexpr std::size_t kMaxExactSurfaces = 1024;
+inline constexpr std::size_t kMaxExactPairs = 1'000'000;
 
 }  // namespace farol::render

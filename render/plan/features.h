@@ -23,6 +23,7 @@ enum class Feature : std::uint8_t {
     specular,
     localViewer,
     separateSpecular,
+    markNotFinite,
     // Texture.
     textured,
     filterMipmap,
@@ -41,6 +42,7 @@ enum class Feature : std::uint8_t {
     surfaceTwoSteps,  ///< or two
     surfaceTurnFromX,
     surfaceDiscUv,
+    exactDepth,  ///< pixels have the surface's own depth, not its mesh's
     // Geometry.
     eyePositions,  ///< vertices were placed in double (MeshData::eyePositions)
     instanced,

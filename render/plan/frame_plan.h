@@ -31,6 +31,7 @@ struct DrawItem {
     glm::vec3 unitFromObject{1.0F};  ///< scale from the mesh to the surface's units
     glm::vec3 surfaceEye{0.0F};      ///< the viewer in the surface's units
     bool isOnSurface = false;        ///< its vertices are; pixels need no step to it
+    bool hasExactDepth = false;      ///< pixels have the surface's depth, not the mesh's
     bool inside = false;             ///< the insides are drawn
     bool mirrored = false;           ///< determinant < 0: front faces are clockwise
     glm::vec3 diffuse{0.0F}, ambient{0.0F}, specular{0.0F}, emissive{0.0F};
@@ -122,7 +123,8 @@ struct FrameStyle {
     bool lit = true;  ///< false: materials show as their plain diffuse colour
     scene::Viewer viewer = scene::Viewer::infinite;
     scene::Specular specular = scene::Specular::single;
-    bool mergesCalls = true;  ///< of models that differ in their place alone
+    bool marksNotFinite = false;  ///< pixels with NaN or infinity are magenta
+    bool mergesCalls = true;      ///< of models that differ in their place alone
     bool depthFirst = true;   ///< in a pass before the shading one, where that saves time
     glm::vec4 background{0.0F, 0.0F, 0.0F, 1.0F};
     int backgroundTexture = -1, skyboxTexture = -1;  ///< indices into FramePlan::textures

@@ -9,10 +9,11 @@
 namespace farol::render {
 namespace {
 
-constexpr FeatureSet kShapeFeatures{
-    Feature::eyePositions,   Feature::surface,          Feature::surfaceCaps,
-    Feature::surfaceProfile, Feature::surfaceRay,       Feature::surfaceTwoSteps,
-    Feature::surfaceWrapsV,  Feature::surfaceTurnFromX, Feature::surfaceDiscUv};
+constexpr FeatureSet kShapeFeatures{Feature::eyePositions,  Feature::surface,
+                                    Feature::surfaceCaps,   Feature::surfaceProfile,
+                                    Feature::surfaceRay,    Feature::surfaceTwoSteps,
+                                    Feature::surfaceWrapsV, Feature::surfaceTurnFromX,
+                                    Feature::surfaceDiscUv, Feature::exactDepth};
 
 FeatureSet surfaceFeatures(const DrawItem& item) {
     const generator::Surface& surface = *item.surface;
@@ -25,6 +26,7 @@ FeatureSet surfaceFeatures(const DrawItem& item) {
     if (kind.raySteps > 1) features.add(Feature::surfaceTwoSteps);
     if (surface.turnFromX) features.add(Feature::surfaceTurnFromX);
     if (surface.discUv) features.add(Feature::surfaceDiscUv);
+    if (item.hasExactDepth) features.add(Feature::exactDepth);
     return features;
 }
 
@@ -70,15 +72,17 @@ FeatureSet itemFeatures(const FramePlan& plan, const DrawItem& item) {
         features =
             features | lightFeatures(item, plan.lightSets[static_cast<std::size_t>(item.lightSet)],
                                      plan.style);
-    // Models without light and texture need their outline only.
-    const bool plain = plan.style.layer == Layer::color && !plan.style.lit && item.texture < 0;
-    if (item.surface && !plain) features = features | surfaceFeatures(item);
+    // Models without light and texture need their outline only, as do their ids.
+    const bool plain = plan.style.layer == Layer::id ||
+                       (plan.style.layer == Layer::color && !plan.style.lit && item.texture < 0);
+    if (item.surface && (!plain || item.hasExactDepth)) features = features | surfaceFeatures(item);
     return features;
 }
 
 FeatureSet shadingFeatures(const FrameStyle& style) {
     FeatureSet features{Feature::lightCount};
     if (style.shading == scene::Shading::chess) features.add(Feature::chess);
+    if (style.marksNotFinite) features.add(Feature::markNotFinite);
     if (!style.lit)
         features.add(Feature::unlit);
     else if (style.shading == scene::Shading::flat)
@@ -97,7 +101,7 @@ void chooseFeatures(const FrameStyle& style, Pass& pass) {
             break;
         case Layer::id:
             pass.features = {Feature::lightCount, Feature::layerId};
-            pass.itemFeatures = {Feature::eyePositions};
+            pass.itemFeatures = kShapeFeatures;
             break;
         case Layer::normal:
             pass.features = {Feature::lightCount, Feature::layerNormal};
@@ -139,7 +143,7 @@ int rowsOfTarget(const glm::ivec2& size, const Sampling& sampling) {
     return (size.y + bands - 1) / bands;
 }
 
-/// The depths of models that `pass` draws: it then shades less of the models that they hide.
+/// The depths of models that `pass` draws, so that it shades less of what they hide.
 Pass depthPassOf(const Pass& pass, const std::vector<PassItem>& occluders) {
     Pass depths = pass;
     depths.target.clearColor.reset();
@@ -179,9 +183,12 @@ void composePasses(FramePlan& plan, const GlFacts& gl) {
     if (sampling.scale > 1) pass.features.add(Feature::supersampled);
     addItems(plan, pass);
     DepthPass depths;
+    // Depths that the shading pass writes itself may lie behind those of the mesh.
+    const bool isMeshDepth = std::none_of(plan.items.begin(), plan.items.end(),
+                                          [](const DrawItem& item) { return item.hasExactDepth; });
     // The GL's samples share their shading already; flat meshes have separate buffers.
-    if (style.depthFirst && sampling.samples == 1 && pass.state.polygons == Polygons::filled &&
-        !pass.features.has(Feature::flat)) {
+    if (style.depthFirst && isMeshDepth && sampling.samples == 1 &&
+        pass.state.polygons == Polygons::filled && !pass.features.has(Feature::flat)) {
         const int shadings = sampling.scale * sampling.scale * sampling.passes;
         depths = planDepthPass(plan, shadings, sampling.passes);
         plan.stats.occluders = depths.models;

@@ -74,6 +74,7 @@ class Planner {
         if (std::max(size.x, size.y) > gl_.maxTargetSide) failSize(size, gl_.maxTargetSide);
         style_.mergesCalls = skipping_.calls;
         style_.depthFirst = skipping_.hidden;
+        style_.marksNotFinite = !skipping_.notFinite;
         const InstanceList& list = placed_.scene;
         chooseStyle(list);
         plan_.camera =
@@ -146,7 +147,7 @@ class Planner {
         plan_.stats.instances += static_cast<int>(list.instances.size());
         const scene::Material undressed = scene::defaultMaterial(scene.dialect);
         textureOf_.assign(list.textures.size(), -1);
-        close_ = closeSurfaces(list);
+        if (fillsFaces()) close_ = needExactDepth(list, found.sides, view, errorPx_);
         const auto outside =
             std::count(found.sides.begin(), found.sides.end(), Frustum::Side::outside);
         plan_.items.reserve(plan_.items.size() + found.sides.size() -
@@ -241,9 +242,9 @@ class Planner {
         const scene::Model& model = *instance.model;
         DrawItem item;
         item.mesh = instance.mesh;
-        if (instance.open && choice_.refine(item, instance, list, view, viewFromObject,
-                                            close_.empty() ? Closeness{} : close_[index]))
-            ++plan_.stats.refined;
+        if (instance.open)
+            choice_.refine(item, instance, list, view, viewFromObject,
+                           !close_.empty() && close_[index]);
         // Only now is it known how far the mesh reaches: balanced ones stand out of their surface.
         const bool isMissed = betweenSamples(item.mesh->bounds, viewFromObject);
         if (isMissed && skipping_.betweenSamples) {
@@ -254,6 +255,7 @@ class Planner {
         const std::shared_ptr<const MeshData> whole = isSeen && !isMissed ? item.mesh : nullptr;
         const glm::dmat4 placed = viewFromObject;
         if (whole) count(item, viewFromObject, instance.open);
+        if (whole && item.hasExactDepth) ++plan_.stats.exactDepth;
         if (!choice_.placeNear(item, instance, view, viewFromObject)) {
             ++plan_.stats.culled;
             return;
@@ -405,6 +407,7 @@ class Planner {
         if (!chosen.path.empty()) {
             TextureRef ref = refOf(chosen.path, assets_);
             ref.filter = scene::Filter::linear;
+            if (!options_.background) ref.where = scene_.background.where;
             style_.backgroundTexture = addTexture(std::move(ref));
         }
         if (scene_.skybox) {
@@ -433,7 +436,7 @@ class Planner {
     std::int64_t openTriangles_ = 0;  ///< of open shapes in view
     double coveredPx_ = 0.0;          ///< by the models' boxes
     CoplanarFaces coplanar_;
-    std::vector<Closeness> close_;  ///< of the list's instances, or empty
+    std::vector<bool> close_;  ///< of the list's instances, or empty
     MeshChoice choice_{style_, errorPx_, assets_, meshes_, plan_.findings};
     std::vector<int> textureOf_;  ///< of an InstanceList, in plan_.textures
 };

@@ -23,6 +23,7 @@ struct Skipping {
     bool lights = true;          ///< lights that add nothing to a model
     bool calls = true;           ///< draw calls of models that differ in their place alone
     bool hidden = true;          ///< shading of pixels that another model covers later
+    bool notFinite = true;       ///< marks of pixels with NaN or infinity; off: they are magenta
 };
 
 /// Plans one frame of a resolved scene that was placed at options.timeS, for a GL. Throws Error as

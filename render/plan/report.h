@@ -19,7 +19,7 @@ struct Stats {
     int coarsened = 0;  ///< models whose mesh is coarser than `error` asks, as are their pixels
     double coarsening = 1.0;  ///< the factor of their error (render/plan/crowd.h)
     int coplanar = 0;         ///< models behind another in whose plane they have a face
-    int refined = 0;          ///< models with another's surface so close that theirs is finer
+    int exactDepth = 0;       ///< models so close to another that their pixels' depth is exact
     int occluders = 0;        ///< models whose depths are drawn before anything is shaded
     double overdraw = 1.0;    ///< shading without that over what shows of it, estimated
     std::int64_t lightsSkipped = 0;  ///< for each model: lights that add nothing to it

@@ -26,9 +26,7 @@ std::string sizeOf(int width, int height) {
     return std::to_string(width) + " x " + std::to_string(height) + " px";
 }
 
-TextureNote scaledNote(const image::Image& image, const std::string& used) {
-    return {TextureNote::Kind::scaled, image.width, image.height, used};
-}
+int faceSide(const GlFacts& gl) { return std::min(gl.maxFaceSide, kMaxFaceSide); }
 
 TextureLevels levelsOf(const TextureRef& ref, const UndecodedTexture& texture, const GlFacts& gl) {
     TextureLevels levels;
@@ -36,19 +34,16 @@ TextureLevels levelsOf(const TextureRef& ref, const UndecodedTexture& texture, c
     image::Image image = texture.decode(damage);
     if (!damage.empty())
         levels.notes.push_back({TextureNote::Kind::damaged, image.width, image.height, damage});
+    for (TextureNote& note : sizeNotes(ref.cube, image.width, image.height, gl))
+        levels.notes.push_back(std::move(note));
     if (ref.cube) {
-        if (!isCross(image.width, image.height))
-            levels.notes.push_back({TextureNote::Kind::noCross, image.width, image.height});
-        const int side = std::min(gl.maxFaceSide, kMaxFaceSide);
-        if (image.width / 4 > side)
-            levels.notes.push_back(scaledNote(image, "faces of " + sizeOf(side, side)));
-        for (image::Image& face : cutCross(image, side)) levels.images.push_back(std::move(face));
+        for (image::Image& face : cutCross(image, faceSide(gl)))
+            levels.images.push_back(std::move(face));
         return levels;
     }
-    if (image.width > gl.maxTextureSide || image.height > gl.maxTextureSide) {
-        const int width = std::min(image.width, gl.maxTextureSide);
-        const int height = std::min(image.height, gl.maxTextureSide);
-        levels.notes.push_back(scaledNote(image, sizeOf(width, height)));
+    const int most = gl.maxTextureSide;
+    if (image.width > most || image.height > most) {
+        const int width = std::min(image.width, most), height = std::min(image.height, most);
         image = image::scaleDown(std::move(image), width, height);
     }
     if (mipmapped(ref.filter)) levels.images = image::buildMipmaps(image);
@@ -58,6 +53,18 @@ TextureLevels levelsOf(const TextureRef& ref, const UndecodedTexture& texture, c
 }
 
 }  // namespace
+
+std::vector<TextureNote> sizeNotes(bool isCube, int width, int height, const GlFacts& gl) {
+    std::vector<TextureNote> notes;
+    if (isCube && !isCross(width, height))
+        notes.push_back({TextureNote::Kind::noCross, width, height});
+    const int side = faceSide(gl), most = gl.maxTextureSide;
+    if (isCube ? width / 4 > side : std::max(width, height) > most)
+        notes.push_back({TextureNote::Kind::scaled, width, height,
+                         isCube ? "faces of " + sizeOf(side, side)
+                                : sizeOf(std::min(width, most), std::min(height, most))});
+    return notes;
+}
 
 Diagnostic warningOf(const TextureNote& note, const TextureRef& ref) {
     const auto file = "file"_arg = uncut(ref.path);

@@ -25,6 +25,9 @@ struct TextureNote {
 /// The note as a warning of the scene that samples the texture by `ref`.
 Diagnostic warningOf(const TextureNote& note, const TextureRef& ref);
 
+/// The findings that a file's size alone gives: noCross, scaled.
+std::vector<TextureNote> sizeNotes(bool isCube, int width, int height, const GlFacts& gl);
+
 /// A texture as GL takes it: the levels from the largest down, bottom row first; of a cube map the
 /// six faces, top row first.
 struct TextureLevels {

@@ -141,8 +141,8 @@ reference::Picture exact(const Case& random, double share, const glm::dvec3& tow
     return reference::traceCenters(reference::makeWorld(scene, {}, options), 1);
 }
 
-/// Pixels darker than half of what the material emits by itself: NaN is drawn as 0, nothing else
-/// takes light away. The background is white.
+/// Pixels darker than half of what the material emits by itself: NaN and infinity are magenta,
+/// nothing else takes light away. The background is white.
 int dark(const image::Image& image) {
     int count = 0;
     for (int y = 0; y < kSide; ++y)
@@ -164,7 +164,7 @@ TEST_CASE("no light and no material of finite numbers gives NaN or infinity") {
     for (int i = 0; i < sweep.cases(); ++i) {
         Case one = random(sweep);
         one.options.background = "white";
-        const image::Image image = draw(one.xml, kSide, one.options);
+        const image::Image image = drawMarked(one.xml, kSide, one.options);
         const int black = dark(image);
         if (black > 0 && ++bad <= 5)
             UNSCOPED_INFO(black << " px dark, " << shadingName(one) << ": " << one.xml);

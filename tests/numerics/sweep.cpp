@@ -11,6 +11,21 @@ std::uint64_t settingOf(const char* name, std::uint64_t fallback) {
     return value != nullptr ? std::strtoull(value, nullptr, 10) : fallback;
 }
 
+image::Image drawJob(const std::string& xml, int side, render::PictureOptions options,
+                     const std::map<std::string, std::string>& files, bool marksNotFinite) {
+    static render::Renderer renderer;
+    render::Job job;
+    job.xml = xml;
+    job.assets = std::make_shared<scene::BundleAssets>(files);
+    if (!options.samples) options.samples = 1;
+    options.width = options.height = side;
+    job.options = std::move(options);
+    job.markNotFinite = marksNotFinite;
+    image::Image image;
+    renderer.draw(job, image);
+    return image;
+}
+
 }  // namespace
 
 Sweep::Sweep(const char* name, int cases)
@@ -55,16 +70,11 @@ glm::dvec3 Camera::ray(double x, double y, int side) const {
 
 image::Image draw(const std::string& xml, int side, render::PictureOptions options,
                   const std::map<std::string, std::string>& files) {
-    static render::Renderer renderer;
-    render::Job job;
-    job.xml = xml;
-    job.assets = std::make_shared<scene::BundleAssets>(files);
-    if (!options.samples) options.samples = 1;
-    options.width = options.height = side;
-    job.options = options;
-    image::Image image;
-    renderer.draw(job, image);
-    return image;
+    return drawJob(xml, side, std::move(options), files, false);
+}
+
+image::Image drawMarked(const std::string& xml, int side, const render::PictureOptions& options) {
+    return drawJob(xml, side, options, {}, true);
 }
 
 glm::ivec3 pixel(const image::Image& image, int x, int y) {

@@ -51,6 +51,8 @@ struct Camera {
 /// Draws a scene square, one sample a pixel unless the options say otherwise.
 image::Image draw(const std::string& xml, int side, render::PictureOptions options = {},
                   const std::map<std::string, std::string>& files = {});
+/// The same with NaN and infinity in magenta.
+image::Image drawMarked(const std::string& xml, int side, const render::PictureOptions& options);
 
 glm::ivec3 pixel(const image::Image& image, int x, int y);
 

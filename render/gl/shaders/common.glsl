@@ -39,6 +39,13 @@ uniform vec3 materialAmbient;
 uniform vec3 materialSpecular;
 uniform float materialShininess;
 
+#ifdef MARK_NOT_FINITE
+bool isFinite(vec3 v) {
+    const uvec3 kExponent = uvec3(0x7f800000u);
+    return all(notEqual(floatBitsToUint(v) & kExponent, kExponent));
+}
+#endif
+
 // normal: unit. primary holds all but the specular part, which goes to secondary.
 void shade(vec3 position, vec3 normal, out vec3 primary, out vec3 secondary) {
     primary = materialBase;
@@ -87,6 +94,11 @@ void shade(vec3 position, vec3 normal, out vec3 primary, out vec3 secondary) {
         }
 #endif
     }
+#endif
+#ifdef MARK_NOT_FINITE
+    if (isFinite(position) && isFinite(normal) && isFinite(primary) && isFinite(secondary)) return;
+    primary = vec3(1.0, 0.0, 1.0);
+    secondary = vec3(0.0);
 #endif
 }
 

@@ -38,6 +38,10 @@ uniform float nearest;
 uniform vec3 plainColor;
 #endif
 
+#ifdef EXACT_DEPTH
+uniform mat4 clipFromView;
+#endif
+
 out vec4 result;
 
 void main() {
@@ -45,6 +49,10 @@ void main() {
     float along = toSurface();
     vec3 unit = unitPosition + along * unitRay;
     vec3 normal = normalFromObject * surfaceGradient(unit);
+#ifdef EXACT_DEPTH
+    // Depth is linear in 1 / distance along the view. Where the mesh is the surface, it is the mesh's to the bit.
+    gl_FragDepth = gl_FragCoord.z - clipFromView[3].z * gl_FragCoord.w * along / (1.0 + along);
+#endif
 #if defined(PHONG) || defined(LAYER_DEPTH) || defined(TEXGEN_EYE)
     vec3 position = positionView * (1.0 + along);
 #endif

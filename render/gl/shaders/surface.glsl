@@ -56,9 +56,16 @@ float toSurface() {
     expand(unitPosition, unitRay, a, b, c);
     float t = seenFrom * entry(a, seenFrom * b, c);
 #ifdef SURFACE_TWO_STEPS
-    t = clamp(t, -kFarthest, kFarthest);
-    expand(unitPosition + t * unitRay, unitRay, a, b, c);
-    t += seenFrom * entry(a, seenFrom * b, c);
+#ifdef EXACT_DEPTH
+    const int kSteps = 5;  // each leaves the cube of the error; rays that graze the surface want them
+#else
+    const int kSteps = 2;
+#endif
+    for (int i = 1; i < kSteps; ++i) {
+        t = clamp(t, -kFarthest, kFarthest);
+        expand(unitPosition + t * unitRay, unitRay, a, b, c);
+        t += seenFrom * entry(a, seenFrom * b, c);
+    }
 #endif
     return clamp(t, -kFarthest, kFarthest);
 #endif

@@ -115,13 +115,14 @@ TEST_CASE("of nearly equal surfaces the outer one shows") {
             draw(renderer, group("", "sphere 1") +
                                group("<rotate angle='37.3' x='1' y='2' z='0.5'/>", outer));
         CAPTURE(outer);
-        CHECK(shells.stats.refined == 2);
-        CHECK(pixelsOf(shells.image, 1) == 0);
+        CHECK(shells.stats.exactDepth == 2);
+        // Outlines may be `error` off: the inner one's may stand out of the outer one's.
+        CHECK(pixelsOf(shells.image, 1) <= 4);
         CHECK(pixelsOf(shells.image, 2) > 500);
     }
     const Drawn apart =
         draw(renderer, group("", "sphere 1") + group("<translate x='3'/>", "sphere 1"));
-    CHECK(apart.stats.refined == 0);
+    CHECK(apart.stats.exactDepth == 0);
 }
 
 TEST_CASE("a crowd of open shapes keeps within the triangles of its pixels") {

@@ -24,7 +24,7 @@ glm::dvec3 direction(Sweep& sweep) {
 }  // namespace
 
 TEST_CASE("random scenes of any size, anywhere, show what rays show") {
-    Sweep sweep("random scenes", 8);
+    Sweep sweep("random scenes", 6);
     int bad = 0, crowded = 0;
     std::int64_t inside = 0, off = 0;
     double least = 1.0;
@@ -59,7 +59,7 @@ TEST_CASE("random scenes of any size, anywhere, show what rays show") {
 }
 
 TEST_CASE("random scenes moved by 1 to 1e9 are the same, byte for byte") {
-    Sweep sweep("moves", 24);
+    Sweep sweep("moves", 6);
     int bad = 0;
     for (int i = 0; i < sweep.cases(); ++i) {
         const RandomScene scene(sweep, sweep.power(1.0, 8.0), objects(sweep));
@@ -74,7 +74,7 @@ TEST_CASE("random scenes moved by 1 to 1e9 are the same, byte for byte") {
 }
 
 TEST_CASE("random scenes moved off the grid of doubles differ by roundings alone") {
-    Sweep sweep("moves off the grid", 16);
+    Sweep sweep("moves off the grid", 6);
     int bad = 0;
     for (int i = 0; i < sweep.cases(); ++i) {
         const RandomScene scene(sweep, sweep.power(1.0, 8.0), objects(sweep));
@@ -94,7 +94,7 @@ TEST_CASE("random scenes moved off the grid of doubles differ by roundings alone
 }
 
 TEST_CASE("random scenes are the same, byte for byte, in other words") {
-    Sweep sweep("rewordings", 24);
+    Sweep sweep("rewordings", 5);
     int bad = 0;
     for (int i = 0; i < sweep.cases(); ++i) {
         const RandomScene scene(sweep, sweep.power(1e-2, 1e3), objects(sweep));

@@ -42,6 +42,7 @@ void addGenerate(CLI::App& root, Action& action);
 void addValidate(CLI::App& root, Action& action);
 void addCompare(CLI::App& root, Action& action);
 void addGrade(CLI::App& root, Action& action);
+void addExplain(CLI::App& root, Action& action);
 void addHealth(CLI::App& root, Action& action);
 void addSchema(CLI::App& root, Action& action);
 void addVersion(CLI::App& root, Action& action);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cli/command.h"
+#include "cli/compare_meshes.h"
 #include "cli/confine.h"
 #include "cli/files.h"
 #include "cli/messages.h"
@@ -17,7 +18,7 @@ namespace farol::cli {
 namespace {
 
 struct Flags {
-    std::string first, second, crop, diff, heat;
+    std::string first, second, shape, crop, diff, heat;
     std::vector<std::string> masks;
     bool maskAxes = false;
     ConfinementFlags confinement;
@@ -94,6 +95,9 @@ int compare(const Flags& flags, const image::Image& first, const image::Image& s
 }
 
 int run(const Flags& flags, Report& report) {
+    if (isMeshComparison(flags.first, flags.shape))
+        return compareMeshes({flags.first, flags.second, flags.shape, flags.confinement}, report);
+    if (flags.second.empty()) throw UsageError(message<"usage/compare">());
     requirePng("--diff", flags.diff);
     requirePng("--heat", flags.heat);
     std::vector<grade::Rectangle> hidden;
@@ -110,10 +114,18 @@ int run(const Flags& flags, Report& report) {
 }  // namespace
 
 void addCompare(CLI::App& root, Action& action) {
-    CLI::App* command = root.add_subcommand("compare", "Says how two pictures of one size differ");
+    CLI::App* command = root.add_subcommand(
+        "compare", "Says how two pictures of one size, or two meshes, differ");
     const auto flags = std::make_shared<Flags>();
-    command->add_option("A", flags->first, "a picture file")->type_name("")->required();
-    command->add_option("B", flags->second, "a picture file")->type_name("")->required();
+    command->add_option("A", flags->first, "a picture file, or a mesh file")
+        ->type_name("")
+        ->required();
+    command->add_option("B", flags->second, "the same to compare with; of a mesh the expected one")
+        ->type_name("");
+    command
+        ->add_option("--shape", flags->shape,
+                     "the expected mesh, as farol generate takes it: \"sphere 1 10 10\"")
+        ->type_name("CALL");
     command
         ->add_option("--crop", flags->crop,
                      "px from the top left: cuts each picture that is not WxH yet; auto: cuts "

@@ -147,12 +147,32 @@ std::string readTables(const Flags& flags, const std::vector<Submission>& submis
     return overrides;
 }
 
+/// The tasks of the reference; without one, one task that the rubric's requirements describe.
+std::vector<GradeTask> readTasks(const Flags& flags, BatchOptions& options) {
+    if (!flags.reference.empty()) {
+        std::vector<GradeTask> tasks = findTasks(flags.reference);
+        options.rubrics = readRubrics(flags.rubric, tasks);
+        for (const grade::Rubric& rubric : options.rubrics)
+            if (grade::comparedPoints(rubric) <= 0.0)
+                throw UsageError(message<"usage/grade-needless">());
+        return tasks;
+    }
+    std::vector<GradeTask> tasks{{"", ""}};
+    options.rubrics = readRubrics(flags.rubric, tasks);
+    const double compared = grade::comparedPoints(options.rubrics.front());
+    if (compared > 0.0)
+        throw UsageError(
+            message<"usage/grade-reference">("points"_arg = std::round(100.0 * compared) / 100.0));
+    return tasks;
+}
+
 int run(const Flags& flags, Report& report) {
     if (flags.printRubric) {
         std::cout << grade::writeRubric(grade::defaultRubric()) << std::flush;
         return kDone;
     }
-    if (flags.reference.empty() || flags.submissions.empty() || flags.output.empty())
+    const bool hasTask = !flags.reference.empty() || !flags.rubric.empty();
+    if (!hasTask || flags.submissions.empty() || flags.output.empty())
         throw UsageError(message<"usage/grade">());
     const std::vector<const grade::Format*> formats = chooseFormats(flags.formats);
     std::vector<grade::PersonMark> marks;
@@ -162,8 +182,7 @@ int run(const Flags& flags, Report& report) {
     render::PictureOptions picture;
     render::applyOption(picture, "missing", flags.missing);
     options.missing = picture.missing;
-    std::vector<GradeTask> tasks = findTasks(flags.reference);
-    options.rubrics = readRubrics(flags.rubric, tasks);
+    std::vector<GradeTask> tasks = readTasks(flags, options);
     std::vector<Submission> submissions = flags.isSingle
                                               ? std::vector{oneSubmission(flags.submissions)}
                                               : findSubmissions(flags.submissions);
@@ -224,7 +243,7 @@ int run(const Flags& flags, Report& report) {
 }  // namespace
 
 void addGrade(CLI::App& root, Action& action) {
-    CLI::App* command = root.add_subcommand("grade", "Grades a class's scenes against a reference");
+    CLI::App* command = root.add_subcommand("grade", "Grades a class's scenes by a reference, or by a rubric's requirements");
     const auto flags = std::make_shared<Flags>();
     command
         ->add_option("SUBMISSIONS", flags->submissions,
@@ -232,7 +251,8 @@ void addGrade(CLI::App& root, Action& action) {
         ->type_name("");
     command
         ->add_option("--reference", flags->reference,
-                     "a scene, a picture, or a folder of them: a task each, found by its name")
+                     "a scene, a picture, or a folder of them: a task each, found by its name; none "
+                     "where the rubric has requirements alone")
         ->type_name("REF");
     command->add_option("-o,--output", flags->output, "folder for the reports; a run goes on in it")
         ->type_name("DIR");

@@ -140,13 +140,15 @@ BatchTimes Batch::run() {
     for (const GradeTask& one : names_) {
         auto task = std::make_shared<Task>();
         task->rubric = worker::packRubric(options_.rubrics[tasks_.size()]);
-        task->reference = readReference(one.path, apart);
+        if (!one.path.empty()) task->reference = readReference(one.path, apart);
         task->digest = digestOf(task->reference);
-        task->wanted = {one.name, {}, grade::filesNamedIn(task->reference.job.xml)};
+        task->wanted = {one.name, {}, grade::filesNamedIn(task->reference.job.xml), true};
+        task->wanted.isScene = grade::needsScene(options_.rubrics[tasks_.size()]);
         for (const GradeTask& other : names_)
             if (other.name != one.name) task->wanted.others.push_back(other.name);
         // Asked for first: a reference that is at fault ends the run before it begins.
-        task->pictures = askForReference(backend_, {task->reference, task->rubric}, one.path);
+        if (!one.path.empty())
+            task->pictures = askForReference(backend_, {task->reference, task->rubric}, one.path);
         tasks_.push_back(std::move(task));
     }
     std::atomic<std::size_t> next{0}, done{0};

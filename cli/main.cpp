@@ -69,6 +69,7 @@ int main(int argc, char** argv) {
     addValidate(app, action);
     addCompare(app, action);
     addGrade(app, action);
+    addExplain(app, action);
     addSchema(app, action);
     addHealth(app, action);
     addVersion(app, action);

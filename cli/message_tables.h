@@ -5,8 +5,10 @@
 
 #include "cli/messages.h"
 #include "core/messages.h"
+#include "generator/compare/messages.h"
 #include "generator/messages.h"
 #include "grade/messages.h"
+#include "grade/requirements/messages.h"
 #include "grade/structure/messages.h"
 #include "image/messages.h"
 #include "render/plan/messages.h"
@@ -25,9 +27,11 @@ inline std::vector<std::span<const MessageRow>> messageTables() {
             scene::kFilesMessages,
             generator::kMeshMessages,
             generator::kGeneratorMessages,
+            generator::kCheckMessages,
             render::kRenderMessages,
             grade::kGradeMessages,
             grade::kCauseMessages,
+            grade::kRequirementMessages,
             worker::kWorkerMessages,
             server::kServerMessages,
             cli::kCliMessages};

@@ -235,10 +235,11 @@ grade::Subject readSubject(const std::string& path, const grade::Wanted& wanted)
     if (isFolder(path)) return grade::subjectOf(collect(path, {}), path, wanted);
     const std::string name = fs::path(path).filename().string();
     // Files of other types are not read: grade::subjectOf() reports them by name.
-    const bool isRead = ending(path) == "xml" || isArchive(path) || isPicture(path) ||
+    const bool isRead = !wanted.isScene || ending(path) == "xml" || isArchive(path) ||
+                        isPicture(path) ||
                         typeOf(path) != fs::file_type::regular;
     return grade::subjectOf(single(name, isRead ? readRegularFile(path, kMaxBytes) : ""), path,
-                            isArchive(name) ? wanted : grade::Wanted{});
+                            isArchive(name) ? wanted : grade::Wanted{"", {}, {}, wanted.isScene});
 }
 
 grade::Subject readSubmission(const Submission& submission, const grade::Wanted& wanted) {

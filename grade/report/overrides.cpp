@@ -106,10 +106,14 @@ void Overrides::applyToTask(TaskResult& task, const SubmissionResult& student, d
             continue;
         }
         for (ordered_json& criterion : grade["criteria"]) {
-            if (criterion.value("measure", "") != row->criterion) continue;
+            if (lowerCase(criterion.value("measure", "")) != row->criterion) continue;
             const double now = std::min(*row->mark, criterion.value("most", 0.0));
             points += now - criterion.value("points", 0.0);
             criterion["points"] = now;
+            if (criterion.value("kind", "") == "manual") {
+                criterion["state"] = "marked";
+                criterion["reason"] = row->comment;
+            }
         }
     }
     points = whole.value_or(std::clamp(points, 0.0, most));

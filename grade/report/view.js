@@ -71,7 +71,7 @@ function slider(given, expected) {
 function comparison(task) {
   const theirs = task.references(), mine = task.pictures(), views = task.grade.views;
   if (!views.length) return '';
-  const shares = (view) => [
+  const shares = (view) => view.difference === undefined ? '' : [
     `Differs: ${number(100 * view.difference)} %`,
     view.flip && `FLIP mean ${view.flip.mean.toFixed(3)}, 95th percentile ${view.flip.p95.toFixed(3)}`,
     view.ssim !== undefined && `SSIM ${view.ssim.toFixed(3)}`,
@@ -86,12 +86,12 @@ function comparison(task) {
     const given = mine[2 * index] || expected, heat = mine[2 * index + 1];
     const figure = (src, alt, caption) => src ? make('figure', {}, make('img', {src, alt}), make('figcaption', {}, caption)) : '';
     stage.replaceChildren(...(expected ? slider(given, expected) : []),
-      make('p', {class: 'dim'}, given === expected && !heat ? 'The pictures are equal.' : shares(view)),
+      make('p', {class: 'dim'}, expected && given === expected && !heat ? 'The pictures are equal.' : shares(view)),
       make('div', {class: 'side'}, figure(expected, 'reference', 'reference'), figure(given, 'submission', 'submission'),
         figure(heat, 'difference', 'difference: black none, white most')));
   };
   views.forEach((view, index) => tabs.append(make('button', {type: 'button', onclick: () => show(index)}, view.name,
-    make('span', {class: 'dim'}, view.difference ? ` ${number(100 * view.difference)} %` : ' equal'))));
+    view.difference === undefined ? '' : make('span', {class: 'dim'}, view.difference ? ` ${number(100 * view.difference)} %` : ' equal'))));
   box.append(make('h3', {}, 'Pictures'), tabs, stage);
   // What differs most is seen first.
   show(views.reduce((most, view, index) => view.difference > views[most].difference ? index : most, 0));
@@ -144,6 +144,14 @@ function bar(percent) {
   return filled;
 }
 
+/** A requirement or a part that a person marks: its text, how far it is met, and the lines that show it. */
+function requirement(entry) {
+  const lines = (entry.matches || []).map((thing) => thing.line).filter(Boolean);
+  return make('td', {}, entry.text, ' ',
+    make('strong', {class: entry.state === 'met' || entry.state === 'marked' ? 'good' : entry.state === 'open' ? 'dim' : 'bad'}, entry.state),
+    make('span', {class: 'dim'}, ` ${entry.reason || ''}`), place({lines}));
+}
+
 /** All that is known of a submission, as elements. */
 function detailOf(one) {
   if (!one.tasks.length) return [make('h2', {}, one.name || one.id), make('p', {class: 'dim'}, one.result)];
@@ -179,8 +187,9 @@ function detailOf(one) {
     parts.push(make('h3', {}, 'Points'), make('table', {class: 'points'}, ...grade.criteria.map((entry) =>
       make('tr', {}, make('td', {}, entry.measure),
         make('td', {}, make('div', {class: 'bar'}, bar(entry.most ? 100 * entry.points / entry.most : 0))),
-        make('td', {}, `${number(entry.points)} / ${number(entry.most)}`), make('td', {class: 'dim'}, entry.reason)))));
-    if (grade.penalty) parts.push(make('p', {class: 'bad'}, `Diagnostics cost ${number(grade.penalty)} points.`));
+        make('td', {}, entry.state === 'open' ? `open / ${number(entry.most)}` : `${number(entry.points)} / ${number(entry.most)}`),
+        entry.text ? requirement(entry) : make('td', {class: 'dim'}, entry.reason)))));
+    if (grade.penalty) parts.push(make('p', {class: 'bad'}, `Penalties cost ${number(grade.penalty)} points.`));
   });
   return parts.filter(Boolean);
 }

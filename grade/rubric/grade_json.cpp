@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "grade/requirements/messages.h"
 #include "grade/rubric/grader.h"
 
 namespace farol::grade {
@@ -55,6 +56,71 @@ ordered_json causesOf(const Grade& grade) {
     return out;
 }
 
+ordered_json thingOf(const RequiredThing& thing) {
+    ordered_json out{{"who", thing.who}};
+    if (!thing.reason.empty()) out["message"] = thing.reason;
+    out.update(placeOf(thing.where));
+    if (!thing.excerpt.empty()) out["excerpt"] = thing.excerpt;
+    return out;
+}
+
+ordered_json thingsOf(const std::vector<RequiredThing>& things) {
+    ordered_json out = ordered_json::array();
+    for (const RequiredThing& thing : things) out.push_back(thingOf(thing));
+    return out;
+}
+
+/// Requirements and marks by hand stand among the criteria, with their kind.
+void addRequirements(const Grade& grade, ordered_json& criteria) {
+    for (const RequirementGrade& one : grade.requirements)
+        criteria.push_back({{"measure", one.id},
+                            {"kind", "requirement"},
+                            {"text", one.text},
+                            {"state", kMetWords[one.met]},
+                            {"points", twoDigits(one.points)},
+                            {"most", twoDigits(one.most)},
+                            {"reason", one.reason},
+                            {"found", one.found},
+                            {"needed", one.needed},
+                            {"matches", thingsOf(one.matches)},
+                            {"misses", thingsOf(one.misses)}});
+    for (const ManualCriterion& one : grade.manual)
+        criteria.push_back({{"measure", one.id},
+                            {"kind", "manual"},
+                            {"text", one.text},
+                            {"state", "open"},
+                            {"points", 0.0},
+                            {"most", twoDigits(one.points)},
+                            {"reason", requirementMessage<"part.manual/open">().text}});
+}
+
+/// What is not met is a finding, too, so that every report shows it with its lines.
+void addUnmet(const Grade& grade, ordered_json& findings) {
+    for (const RequirementGrade& one : grade.requirements) {
+        if (one.met == Met::yes) continue;
+        const std::string first =
+            one.misses.empty() ? "" : one.misses.front().who + " " + one.misses.front().reason;
+        const auto text = "text"_arg = uncut(one.text);
+        const auto reason = "reason"_arg = one.reason;
+        const auto miss = "miss"_arg = uncut(first);
+        const Message message =
+            one.met == Met::partly
+                ? requirementMessage<"requirement.partly">(text, reason, miss)
+                : requirementMessage<"requirement.unmet">(text, reason, miss);
+        ordered_json entry{{"code", message.code()},
+                           {"criterion", one.id},
+                           {"message", message.text},
+                           {"points", twoDigits(one.most - one.points)},
+                           {"seen", true},
+                           {"spoils", 0.0}};
+        if (!one.misses.empty()) entry.update(placeOf(one.misses.front().where));
+        if (!one.misses.empty() && !one.misses.front().excerpt.empty())
+            entry["excerpt"] = one.misses.front().excerpt;
+        entry["places"] = thingsOf(one.misses);
+        findings.push_back(std::move(entry));
+    }
+}
+
 ordered_json viewsOf(const Grade& grade) {
     // Parts outside the rubric are not shown: a 0 would mean that nothing differs.
     std::set<const MetricSpec*> judged;
@@ -100,7 +166,9 @@ std::string toJson(const Grade& grade) {
         entry["reason"] = one.reason;
         out["criteria"].push_back(std::move(entry));
     }
+    addRequirements(grade, out["criteria"]);
     out["findings"] = causesOf(grade);
+    addUnmet(grade, out["findings"]);
     out["diagnostics"] = ordered_json::array();
     for (std::size_t i = 0; i < grade.diagnostics.size(); ++i) {
         const Diagnostic& one = grade.diagnostics[i];

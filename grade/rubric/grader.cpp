@@ -147,8 +147,10 @@ struct Grader::State {
         diagnosis = diagnose(*reference.scene, *prepared, reference.timesS, meshes);
         grade.traits =
             traitsOf(diagnosis, reference.scene->outline, submission.job.xml, reference.job.xml);
-        constexpr std::size_t kMaxDocument = 20'000;  // each byte may become three
-        grade.document = toUtf8(submission.job.xml.substr(0, kMaxDocument));
+        keepDocument(submission, grade);
+        if (!rubric.requirements.empty())
+            grade.requirements =
+                Requirements(rubric, renderer, meshes, prepared, submission.job).grade();
         grade.times.compareMs += watch.lapMs();
         const FrameParts parts = partsFor(rubric);
         std::vector<image::Image> handedIn;
@@ -166,6 +168,41 @@ struct Grader::State {
         gather(reference, *prepared, diagnosis, handedIn, evidence);
         chargeRepairs(prepared->diagnostics, evidence);
         grade.times.drawMs += watch.lapMs();
+    }
+
+    /// A scene by the rubric's requirements alone.
+    void evaluateAlone(const Subject& submission, const Rubric& rubric, Grade& grade,
+                       Evidence& evidence) {
+        render::Job job = submission.job;
+        job.identity = identityOf(job);
+        Stopwatch watch;
+        const auto prepared = std::make_shared<const render::Prepared>(render::prepare(job));
+        grade.diagnostics = prepared->diagnostics;
+        keepDocument(submission, grade);
+        grade.times.readMs += watch.lapMs();
+        grade.requirements =
+            Requirements(rubric, renderer, meshes, prepared, submission.job).grade();
+        grade.times.compareMs += watch.lapMs();
+        const std::vector<double> timesS = chooseTimes(rubric, prepared->scene);
+        const render::InstanceList list =
+            render::collect(prepared->scene, timesS.front(), false, *prepared->assets, meshes);
+        for (const Shot& shot : planShots(rubric, prepared->scene, list.bounds, timesS, false)) {
+            const image::Image image = drawFrame(renderer, job, shot, {}).color;
+            ViewGrade view;
+            view.name = shot.name;
+            view.timeS = shot.options.timeS;
+            view.width = image.width;
+            view.height = image.height;
+            view.picture = image::encodeJpeg(image, kJpegQuality);
+            grade.views.push_back(std::move(view));
+        }
+        chargeRepairs(prepared->diagnostics, evidence);
+        grade.times.drawMs += watch.lapMs();
+    }
+
+    static void keepDocument(const Subject& submission, Grade& grade) {
+        constexpr std::size_t kMaxDocument = 20'000;  // each byte may become three
+        grade.document = toUtf8(submission.job.xml.substr(0, kMaxDocument));
     }
 
     /// Replaces instance numbers of the submission by the numbers of the matching items of the
@@ -365,6 +402,7 @@ Grader::Grader(render::Renderer& renderer) : state_(std::make_unique<State>(rend
 Grader::~Grader() = default;
 
 std::vector<std::string> Grader::picturesOf(const Subject& reference, const Rubric& rubric) {
+    if (reference.isNone()) return {};
     const auto shown = state_->reference(reference, rubric, writeRubric(rubric));
     if (shown->screen) {
         const image::Image& screen = *shown->screen;
@@ -379,18 +417,26 @@ std::vector<std::string> Grader::picturesOf(const Subject& reference, const Rubr
 }
 
 Grade Grader::grade(const Subject& reference, const Subject& given, const Rubric& rubric) {
-    const auto against = state_->reference(reference, rubric, writeRubric(rubric));
+    const bool isAlone = reference.isNone();
+    const auto against =
+        isAlone ? nullptr : state_->reference(reference, rubric, writeRubric(rubric));
     Grade grade;
     grade.most = rubric.points;
+    grade.manual = rubric.manual;
     Evidence evidence;
     Diagnosis diagnosis;
     Subject submission = given;
-    bool scenes = !against->screen;
+    bool scenes = isAlone || !against->screen;
     try {
-        submission = opened(given, filesNamedIn(against->job.xml));
+        submission = opened(given, isAlone ? std::vector<std::string>() : filesNamedIn(against->job.xml));
         const bool isImage = scenes && submission.picture.has_value();
         scenes = scenes && !isImage;
-        if (scenes)
+        if (isAlone && isImage) throw Error(message<"grade.image">());
+        if (submission.isFiles())
+            grade.requirements = gradeFiles(rubric, *submission.job.assets);
+        else if (isAlone)
+            state_->evaluateAlone(submission, rubric, grade, evidence);
+        else if (scenes)
             state_->compare(*against, submission, rubric, grade, evidence, diagnosis);
         else
             state_->comparePictures(*against, submission, rubric, grade);
@@ -399,10 +445,12 @@ Grade Grader::grade(const Subject& reference, const Subject& given, const Rubric
             grade.similarity = 1.0 - grade.views.front().measured.at(&mainMetric()).loss;
             grade.notGraded = NotGraded{"grade.image", message<"grade.image">().text};
         }
+        // No requirement is met by an image.
+        if (!scenes) grade.requirements = gradeFiles(rubric, scene::BundleAssets());
     } catch (const Error& error) {
         // Limits of the service for a request are not errors of the submission.
         if (error.code() == "limit.cost") throw;
-        const bool isImage = submission.picture.has_value() && !against->screen;
+        const bool isImage = submission.picture.has_value() && (isAlone || !against->screen);
         grade.notGraded = isImage && !rubric.takesImages
                               ? NotGraded{"grade.image", message<"grade.image">().text}
                               : NotGraded{error.code(), error.what()};

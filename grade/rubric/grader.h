@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/bounded_json.h"
+#include "grade/requirements/evaluate.h"
 #include "grade/rubric/rubric.h"
 #include "grade/rubric/severity.h"
 #include "grade/rubric/subject.h"
@@ -72,6 +73,8 @@ struct Grade {
     double unexplainedShare = 0;       ///< share of the weighted work
     std::optional<double> similarity;  ///< of a picture that was handed in for a scene, 0..1
     std::vector<CriterionGrade> criteria;
+    std::vector<RequirementGrade> requirements;
+    std::vector<ManualCriterion> manual;  ///< open: a person marks them
     std::vector<GradedCause> causes;
     Diagnostics diagnostics;
     std::vector<std::string> excerpts;  ///< the lines at each diagnostic's place, or ""
@@ -88,11 +91,13 @@ class Grader {
     explicit Grader(render::Renderer& renderer);
     ~Grader();
 
+    /// Without a reference (Subject::isNone) the submission is graded by the rubric's requirements.
     /// Throws Error when the reference is at fault; a submission that cannot be read is not graded.
     /// The grade depends on the arguments only, not on earlier calls.
     Grade grade(const Subject& reference, const Subject& submission, const Rubric& rubric);
 
-    /// The image of the reference in each view, JPEG, in the order of Grade::views. Throws Error.
+    /// The image of the reference in each view, JPEG, in the order of Grade::views; none where there
+    /// is no reference. Throws Error.
     std::vector<std::string> picturesOf(const Subject& reference, const Rubric& rubric);
 
   private:

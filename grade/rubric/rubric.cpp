@@ -1,5 +1,10 @@
 #include "grade/rubric/rubric.h"
 
+#include <algorithm>
+#include <cmath>
+
+#include "grade/requirements/requirement_form.h"
+#include "grade/rubric/json_place.h"
 #include "grade/rubric/rubric_form.h"
 
 namespace farol::grade {
@@ -95,6 +100,18 @@ void describeCriterion(Form& form, Criterion& criterion) {
     }
 }
 
+/// Refuses an id that an earlier criterion has: the first `requirements` and `manual` of them.
+template <typename Form>
+void requireOwnName(const Form& form, const Rubric& rubric, const std::string& id,
+                    std::size_t requirements, std::size_t manual) {
+    bool isTaken = std::any_of(metrics().begin(), metrics().end(),
+                               [&](const MetricSpec& metric) { return metric.name == id; });
+    for (std::size_t i = 0; i < requirements; ++i)
+        isTaken = isTaken || rubric.requirements[i].id == id;
+    for (std::size_t i = 0; i < manual; ++i) isTaken = isTaken || rubric.manual[i].id == id;
+    form.template require<"rubric.range/twice">(!isTaken, "id");
+}
+
 /// Each key of a rubric with its type and range, in the order of documents.
 template <typename Form>
 void describe(Form& form, Rubric& rubric) {
@@ -118,6 +135,24 @@ void describe(Form& form, Rubric& rubric) {
                  "Seconds; null: 0, and a later moment where the reference moves.");
     form.list("views", rubric.views, View{"", View::Kind::orbit}, 1, 16,
               "The cameras; each is used at each time.", describeView<Form>);
+    KnownIds known;
+    form.list("define", rubric.definitions, Definition{}, 0, kMaxRequirements,
+              "Objects that later selectors name by their id.",
+              [&](Form& each, Definition& definition, std::size_t) {
+                  describeDefinition(each, definition, known);
+              });
+    form.list("requirements", rubric.requirements, Requirement{}, 0, kMaxRequirements,
+              "What is asked of a scene, with or without a reference.",
+              [&](Form& each, Requirement& requirement, std::size_t at) {
+                  describeRequirement(each, requirement, known);
+                  requireOwnName(each, rubric, requirement.id, at, 0);
+              });
+    form.list("manual", rubric.manual, ManualCriterion{}, 0, 16,
+              "Parts that a person marks, in overrides.csv.",
+              [&](Form& each, ManualCriterion& manual, std::size_t at) {
+                  describeManual(each, manual);
+                  requireOwnName(each, rubric, manual.id, rubric.requirements.size(), at);
+              });
     form.list("criteria", rubric.criteria, usualOf(metrics().front()), 1, metrics().size(),
               "Each measure once; weights are shares of the points.",
               [&](Form& each, Criterion& criterion, std::size_t at) {
@@ -131,11 +166,50 @@ void describe(Form& form, Rubric& rubric) {
         penalties.number("most", rubric.mostPenalty, 0, 10'000,
                          "Points that all together may cost.");
         penalties.numbersByKey("codes", rubric.byCode, 0, 10'000,
-                               "Points for each diagnostic of a code, in place of warning's.");
+                               "Points for each diagnostic of a code, in place of warning's, or for "
+                               "each finding of a code, beside what it costs.");
     });
 }
 
+Rubric readDocument(const json& document, const std::string& name) {
+    Rubric rubric = defaultRubric();
+    rubric.title = "Rubric";
+    RubricReader reader(document, "", name);
+    describe(reader, rubric);
+    reader.end();
+    double weights = 0.0;
+    for (const Criterion& one : rubric.criteria) weights += one.weight;
+    reader.require<"rubric.range/weights">(weights > 0.0, "criteria");
+    const auto isThere = [&](const char* key) {
+        return document.contains(key) && !document[key].is_null();
+    };
+    const double sum = requiredPoints(rubric);
+    if (sum > 0.0 && !isThere("points") && !isThere("criteria")) rubric.points = sum;
+    reader.require<"rubric.range/points">(comparedPoints(rubric) >= 0.0, "points",
+                                          "points"_arg = shortNumber(rubric.points),
+                                          "sum"_arg = shortNumber(sum));
+    return rubric;
+}
+
 }  // namespace
+
+double requiredPoints(const Rubric& rubric) {
+    double sum = 0.0;
+    for (const Requirement& one : rubric.requirements) sum += one.points;
+    for (const ManualCriterion& one : rubric.manual) sum += one.points;
+    return sum;
+}
+
+double comparedPoints(const Rubric& rubric) {
+    const double left = rubric.points - requiredPoints(rubric);
+    return std::abs(left) < 1e-6 ? 0.0 : left;
+}
+
+bool needsScene(const Rubric& rubric) {
+    return comparedPoints(rubric) > 0.0 ||
+           std::any_of(rubric.requirements.begin(), rubric.requirements.end(),
+                       [](const Requirement& one) { return !one.mesh; });
+}
 
 Rubric defaultRubric() {
     Rubric rubric;
@@ -155,15 +229,14 @@ Rubric readRubric(const std::string& text, const std::string& name) {
     } catch (const JsonError& error) {
         throw Error(message<"rubric.json">("reason"_arg = std::string(error.what())), {name, 0, 0});
     }
-    Rubric rubric = defaultRubric();
-    rubric.title = "Rubric";
-    RubricReader reader(document, "", name);
-    describe(reader, rubric);
-    reader.end();
-    double weights = 0.0;
-    for (const Criterion& one : rubric.criteria) weights += one.weight;
-    reader.require<"rubric.range/weights">(weights > 0.0, "criteria");
-    return rubric;
+    try {
+        return readDocument(document, name);
+    } catch (const Error& error) {
+        Diagnostic fault = error.primary();
+        fault.where = placeIn(text, fault.field);
+        fault.where.file = name;
+        throw Error(Diagnostics{std::move(fault)});
+    }
 }
 
 std::string writeRubric(const Rubric& rubric) {

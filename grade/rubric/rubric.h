@@ -8,6 +8,7 @@
 #include "core/bounded_json.h"
 #include "core/enum_words.h"
 #include "grade/images/mask.h"
+#include "grade/requirements/requirement.h"
 #include "grade/rubric/metrics.h"
 #include "render/options.h"
 #include "scene/scene.h"
@@ -55,19 +56,33 @@ struct Rubric {
     bool lend = true;  ///< the reference's pictures and models to submissions that lack them
     bool takesImages = false;  ///< grades a picture in place of a scene
     Reveal reveal = Reveal::words;
-    std::vector<Criterion> criteria;
+    std::vector<Definition> definitions;
+    std::vector<Requirement> requirements;
+    std::vector<ManualCriterion> manual;
+    std::vector<Criterion> criteria;  ///< of the comparison with a reference
     double perWarning = 0.0;               ///< points
-    std::map<std::string, double> byCode;  ///< points for each diagnostic of that code
+    std::map<std::string, double> byCode;  ///< points for each diagnostic or finding of that code
     double mostPenalty = 10.0;             ///< points
 };
+
+/// The points that requirements and marks by hand share.
+double requiredPoints(const Rubric& rubric);
+
+/// The points that the comparison with a reference shares: what requirements and marks by hand
+/// leave. 0: no reference is needed.
+double comparedPoints(const Rubric& rubric);
+
+/// Returns whether a submission must hold a scene: not where all that is asked for are mesh files.
+bool needsScene(const Rubric& rubric);
 
 /// The rubric that is used where none is given.
 Rubric defaultRubric();
 
 inline constexpr JsonLimits kRubricJson{.bytes = 262'144, .stringBytes = 4'096};
 /// Reads a rubric (at most kRubricJson); missing keys have the default's values. Throws Error
-/// rubric.json, rubric.key, rubric.type, rubric.range, each with the path of the value:
-/// "criteria[2].weight".
+/// rubric.json, rubric.key, rubric.type, rubric.range, each with line, column and JSON pointer of
+/// the value: "/criteria/2/weight", also in `field`.
+/// Without "points" and "criteria" a rubric with requirements has the sum of their points.
 Rubric readRubric(const std::string& json, const std::string& name);
 
 /// The rubric as readRubric takes it, every key written.

@@ -26,7 +26,7 @@ ordered_json bound(double value);
 inline constexpr std::size_t kMaxRubricText = 200;  ///< bytes; the rest is cut off
 
 /// Reads one object of the document; `end` refuses keys that were not asked for. Null stands for a
-/// key that is not there.
+/// key that is not there. Errors name the value by its JSON pointer (RFC 6901), also in `field`.
 class RubricReader {
   public:
     static constexpr bool kReads = true, kWrites = false;
@@ -34,10 +34,16 @@ class RubricReader {
     RubricReader(const json& value, std::string path, const std::string& file);
 
     void comment(const std::string& key) { has(key); }
-    void text(const std::string& key, std::string& out);
+    void text(const std::string& key, std::string& out, const char* = "");
+    /// A text that is needed and not empty.
+    void requiredText(const std::string& key, std::string& out, const char* = "");
     void flag(const std::string& key, bool& out, const char* = "");
+    void flag(const std::string& key, std::optional<bool>& out, const char* = "");
+    /// A list of different words among `words`.
+    void someOf(const std::string& key, std::vector<std::string>& out,
+                const std::vector<std::string_view>& words, const char*);
     void number(const std::string& key, double& out, double least, double most, const char* = "");
-    void integer(const std::string& key, int& out, int least, int most);
+    void integer(const std::string& key, int& out, int least, int most, const char* = "");
     void integer(const std::string& key, std::optional<int>& out, int least, int most);
     /// A power of two.
     void samples(const std::string& key, int& out, int most, const char*);
@@ -65,6 +71,16 @@ class RubricReader {
         each(inner);
         inner.end();
     }
+    /// An object that need not be there; where it is, it begins as `usual`.
+    template <typename Value, typename Each>
+    void maybe(const std::string& key, std::optional<Value>& out, const Value& usual, const char*,
+               Each each) {
+        if (!has(key)) return;
+        RubricReader inner(value_.at(key), at(key), file_);
+        out = usual;
+        each(inner, *out);
+        inner.end();
+    }
     /// Objects that begin as `usual`; `each` takes the form, an element and its place.
     template <typename Value, typename Each>
     void list(const std::string& key, std::vector<Value>& out, const Value& usual,
@@ -73,25 +89,31 @@ class RubricReader {
         const json& all = listAt(key, fewest, most);
         out.clear();
         for (std::size_t i = 0; i < all.size(); ++i) {
-            RubricReader inner(all[i], at(key) + "[" + std::to_string(i) + "]", file_);
+            RubricReader inner(all[i], at(key) + "/" + std::to_string(i), file_);
             out.push_back(usual);
             each(inner, out.back(), i);
             inner.end();
         }
     }
-    /// Refuses the document unless `ok`, with a message that has {path}.
-    template <FixedString kId>
-    void require(bool ok, const std::string& key) const {
-        if (!ok) fail<kId>(at(key));
+    /// Refuses the document unless `ok`, with a message that has {path}; without a key the path
+    /// is this object's.
+    template <FixedString kId, FixedString... kNames>
+    void require(bool ok, const std::string& key, const NamedArgument<kNames>&... more) const {
+        if (!ok) fail<kId>(at(key), more...);
     }
+    /// Refuses the document unless `ok`: the word `value` of the key is none of `known`.
+    void requireKnown(bool ok, const std::string& key, const std::string& value,
+                      const std::vector<std::string>& known) const;
     void end() const;
 
   private:
     bool has(const std::string& key);
     double asNumber(const json& value, const std::string& path, double least, double most) const;
     std::size_t place(const std::string& key, const std::vector<std::string_view>& words);
+    [[noreturn]] void failWord(const std::string& path, const std::string& value,
+                               const std::vector<std::string_view>& words) const;
     const json& listAt(const std::string& key, std::size_t fewest, std::size_t most) const;
-    std::string at(const std::string& key) const { return path_.empty() ? key : path_ + "." + key; }
+    std::string at(const std::string& key) const;
     template <FixedString kId, FixedString... kNames>
     [[noreturn]] void fail(const std::string& path, const NamedArgument<kNames>&... more) const {
         const std::string& named = path.empty() ? kWhole : path;
@@ -111,12 +133,26 @@ class RubricWriter {
     static constexpr bool kReads = false, kWrites = true;
 
     void comment(const std::string&) {}
-    void text(const std::string& key, const std::string& value) { out[key] = value; }
+    void text(const std::string& key, const std::string& value, const char* = "") {
+        out[key] = value;
+    }
+    void requiredText(const std::string& key, const std::string& value, const char* = "") {
+        out[key] = value;
+    }
     void flag(const std::string& key, bool value, const char* = "") { out[key] = value; }
+    void flag(const std::string& key, const std::optional<bool>& value, const char* = "") {
+        out[key] = value ? ordered_json(*value) : ordered_json();
+    }
+    void someOf(const std::string& key, const std::vector<std::string>& values,
+                const std::vector<std::string_view>&, const char*) {
+        out[key] = values.empty() ? ordered_json() : ordered_json(values);
+    }
     void number(const std::string& key, double value, double, double, const char* = "") {
         out[key] = value;
     }
-    void integer(const std::string& key, int value, int, int) { out[key] = value; }
+    void integer(const std::string& key, int value, int, int, const char* = "") {
+        out[key] = value;
+    }
     void integer(const std::string& key, const std::optional<int>& value, int, int) {
         out[key] = value ? ordered_json(*value) : ordered_json();
     }
@@ -151,6 +187,15 @@ class RubricWriter {
         out[key] = std::move(inner.out);
     }
     template <typename Value, typename Each>
+    void maybe(const std::string& key, std::optional<Value>& value, const Value&, const char*,
+               Each each) {
+        out[key] = nullptr;
+        if (!value) return;
+        RubricWriter inner;
+        each(inner, *value);
+        out[key] = std::move(inner.out);
+    }
+    template <typename Value, typename Each>
     void list(const std::string& key, std::vector<Value>& values, const Value&, std::size_t,
               std::size_t, const char*, Each each) {
         ordered_json all = ordered_json::array();
@@ -161,8 +206,10 @@ class RubricWriter {
         }
         out[key] = std::move(all);
     }
-    template <FixedString kId>
-    void require(bool, const std::string&) const {}
+    template <FixedString kId, FixedString... kNames>
+    void require(bool, const std::string&, const NamedArgument<kNames>&...) const {}
+    void requireKnown(bool, const std::string&, const std::string&,
+                      const std::vector<std::string>&) const {}
 
     ordered_json out = ordered_json::object();
 };
@@ -173,14 +220,20 @@ class RubricSchema {
     static constexpr bool kReads = false, kWrites = false;
 
     void comment(const std::string& key) { add(key, {{"type", "string"}}); }
-    void text(const std::string& key, const std::string&);
+    void text(const std::string& key, const std::string&, const char* about = "");
+    void requiredText(const std::string& key, const std::string&, const char* about = "");
     void flag(const std::string& key, bool, const char* about = "") {
         add(key, {{"type", "boolean"}}, about);
     }
+    void flag(const std::string& key, const std::optional<bool>&, const char* about = "") {
+        add(key, {{"type", {"boolean", "null"}}}, about);
+    }
+    void someOf(const std::string& key, const std::vector<std::string>&,
+                const std::vector<std::string_view>& words, const char* about);
     void number(const std::string& key, double, double least, double most, const char* about = "") {
         add(key, numberRule(least, most), about);
     }
-    void integer(const std::string& key, int, int least, int most);
+    void integer(const std::string& key, int, int least, int most, const char* about = "");
     void integer(const std::string& key, const std::optional<int>&, int least, int most);
     void samples(const std::string& key, int, int most, const char* about);
     template <typename Enum, Enum kLast>
@@ -208,6 +261,16 @@ class RubricSchema {
         add(key, inner.rule());
     }
     template <typename Value, typename Each>
+    void maybe(const std::string& key, const std::optional<Value>&, const Value& usual,
+               const char* about, Each each) {
+        RubricSchema inner;
+        Value value = usual;
+        each(inner, value);
+        ordered_json rule = inner.rule();
+        rule["type"] = {"object", "null"};
+        add(key, std::move(rule), about);
+    }
+    template <typename Value, typename Each>
     void list(const std::string& key, const std::vector<Value>&, const Value& usual,
               std::size_t fewest, std::size_t most, const char* about, Each each) {
         RubricSchema inner;
@@ -215,8 +278,10 @@ class RubricSchema {
         each(inner, value, 0);
         add(key, listRule({{"type", "array"}}, fewest, most, about, inner.rule()));
     }
-    template <FixedString kId>
-    void require(bool, const std::string&) const {}
+    template <FixedString kId, FixedString... kNames>
+    void require(bool, const std::string&, const NamedArgument<kNames>&...) const {}
+    void requireKnown(bool, const std::string&, const std::string&,
+                      const std::vector<std::string>&) const {}
 
     /// The object's rule.
     ordered_json rule() const;

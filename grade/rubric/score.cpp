@@ -8,6 +8,7 @@
 
 #include "core/text.h"
 #include "grade/messages.h"
+#include "grade/rubric/excerpt.h"
 
 namespace farol::grade {
 namespace {
@@ -53,23 +54,6 @@ CriterionGrade judgeMeasured(const Grade& grade, const Criterion& rule, double m
     return out;
 }
 
-/// The line and its neighbours, with numbers.
-std::string excerptOf(const std::string& xml, int line) {
-    constexpr std::size_t kMaxLineBytes = 160;  // bytes of a line
-    std::string out;
-    std::size_t begin = 0;
-    for (int number = 1; begin < xml.size() && number <= line + 1; ++number) {
-        const std::size_t end = std::min(xml.size(), xml.find('\n', begin));
-        if (number >= line - 1) {
-            std::string text = xml.substr(begin, std::min(end - begin, kMaxLineBytes));
-            while (!text.empty() && (text.back() == '\r' || text.back() == ' ')) text.pop_back();
-            out += std::to_string(number) + (number == line ? " > " : "   ") + text + "\n";
-        }
-        begin = end + 1;
-    }
-    return out;
-}
-
 /// Returns the line of the camera's child element of a cause: the scene stores the camera's only.
 Location cameraPlace(const std::string& code, Location where, const std::string& xml) {
     static const std::map<std::string, std::string> kElements{{"camera.position", "<position"},
@@ -104,6 +88,10 @@ double penaltyOf(const Grade& grade, const Rubric& rubric) {
         else if (one.severity != Severity::info)  // errors: of files that placeholders replace
             sum += rubric.perWarning;
     }
+    for (const GradedCause& one : grade.causes)
+        if (const auto special = rubric.byCode.find(one.code);
+            special != rubric.byCode.end() && one.isSeen)
+            sum += special->second;
     return std::min(sum, rubric.mostPenalty);
 }
 
@@ -156,7 +144,7 @@ class WorkScore {
         for (const Criterion& one : rubric.criteria) {
             if (!applies(one) || one.metric->causes() == nullptr) continue;
             const std::size_t topic = indexOf(one.metric->causes()->topic);
-            most_[topic] = rubric.points * one.weight / weights_;
+            most_[topic] = comparedPoints(rubric) * one.weight / weights_;
             left_[topic] = most_[topic] * evidence.present;
             const double share = one.weight / weights_,
                          usualShare = usualWeight[topic] / usualWeights;
@@ -214,7 +202,7 @@ class WorkScore {
     static std::size_t indexOf(Topic topic) { return static_cast<std::size_t>(topic); }
 
     double hundredths(double value) const {
-        return value / 100.0 * rubric_.points * rubric_.strictness;
+        return value / 100.0 * comparedPoints(rubric_) * rubric_.strictness;
     }
 
     double chargeCause(const Cause& cause, std::size_t index) {
@@ -283,7 +271,9 @@ void score(Grade& grade, const Evidence* evidence, const Rubric& rubric, const s
                                      : "");
     if (grade.notGraded) return;
     double points = 0.0;
-    if (evidence != nullptr) {
+    for (const RequirementGrade& one : grade.requirements) points += one.points;
+    const double compared = comparedPoints(rubric);
+    if (evidence != nullptr && evidence->diagnosis != nullptr) {
         grade.present = evidence->present;
         grade.unexplainedShare = evidence->unexplained;
         std::vector<Cause> causes = evidence->diagnosis->causes;
@@ -308,19 +298,19 @@ void score(Grade& grade, const Evidence* evidence, const Rubric& rubric, const s
         work.charge();
         for (const Criterion& one : rubric.criteria) {
             if (!work.applies(one)) continue;
-            const double most = rubric.points * one.weight / work.weights();
+            const double most = compared * one.weight / work.weights();
             grade.criteria.push_back(one.metric->causes() != nullptr
                                          ? work.judged(one)
                                          : judgeMeasured(grade, one, most, rubric.strictness));
             points += grade.criteria.back().points;
         }
-    } else {
+    } else if (evidence == nullptr) {
         double weights = 0.0;
         const std::vector<Criterion> criteria = pictureCriteria(rubric);
         for (const Criterion& one : criteria) weights += one.weight;
         for (const Criterion& one : criteria) {
             grade.criteria.push_back(
-                judgeMeasured(grade, one, rubric.points * one.weight / weights, rubric.strictness));
+                judgeMeasured(grade, one, compared * one.weight / weights, rubric.strictness));
             points += grade.criteria.back().points;
         }
     }

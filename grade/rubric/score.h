@@ -23,8 +23,9 @@ struct Evidence {
 std::vector<Criterion> pictureCriteria(const Rubric& rubric);
 
 /// Turns measurements and causes into points: fills in criteria, causes, penalty, points and
-/// passed. `evidence`: both sides are scenes; null: criteria of images share all points. `xml` is
-/// the submission's document, for excerpts, `name` its name in locations.
+/// passed. `evidence`: both sides are scenes, or without a diagnosis one that is graded alone;
+/// null: criteria of images share all points of the comparison. `xml` is the submission's
+/// document, for excerpts, `name` its name in locations.
 void score(Grade& grade, const Evidence* evidence, const Rubric& rubric, const std::string& xml,
            const std::string& name);
 

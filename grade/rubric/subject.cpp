@@ -97,6 +97,11 @@ Subject subjectOf(std::shared_ptr<const scene::Assets> files, const std::string&
             return subject;
         }
     }
+    if (!wanted.isScene && scenes.empty()) {
+        subject.job.name = where;
+        subject.job.assets = std::move(files);
+        return subject;
+    }
     throwNoScene(*files, where, wanted, !scenes.empty());
 }
 

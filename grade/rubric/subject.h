@@ -16,12 +16,21 @@ struct Subject {
     std::optional<std::string> picture;  ///< the bytes of a picture file, where it is one
     Wanted wanted;                       ///< of an archive: which of its scenes is meant
     Diagnostics notes;                   ///< which file was chosen, and why
+
+    /// Returns whether this is no subject: a rubric of requirements has no reference.
+    bool isNone() const { return !hasScene() && (!job.assets || job.assets->list().empty()); }
+    /// Returns whether it is files alone, for requirements of mesh files.
+    bool isFiles() const { return !hasScene() && !isNone(); }
+
+  private:
+    bool hasScene() const { return picture || !job.xml.empty() || !job.archive.empty(); }
 };
 
 /// Chooses the scene, image or archive among files by their paths: chooseDocument() of the .xml
 /// files. Without any .xml file the only archive, else the image with the task's name, or without a
 /// task the only image or the one highest in the folders. `where` names the
 /// files in errors.
+/// Where nothing of that is there and Wanted::isScene is false, all files.
 /// Throws Error grade.no-scene, grade.which-scene, grade.empty-file.
 Subject subjectOf(std::shared_ptr<const scene::Assets> files, const std::string& where,
                   const Wanted& wanted);

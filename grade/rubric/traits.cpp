@@ -6,6 +6,7 @@
 
 #include "core/digest.h"
 #include "core/text.h"
+#include "grade/rubric/metrics.h"
 
 namespace farol::grade {
 namespace {

@@ -41,9 +41,15 @@ worker::GradeTask::Request readJob(std::vector<Part> parts) {
         }
     }
     if (!submission) throw Error(message<"grade.no-submission">(), {}, "submission");
-    if (!reference) throw Error(message<"grade.no-reference">(), {}, "reference");
-    job.rubric = worker::packRubric(rubric ? grade::readRubric(*rubric, "rubric.json")
-                                           : grade::defaultRubric());
+    const grade::Rubric rules =
+        rubric ? grade::readRubric(*rubric, "rubric.json") : grade::defaultRubric();
+    const bool isCompared = grade::comparedPoints(rules) > 0.0;
+    if (!reference && isCompared) throw Error(message<"grade.no-reference">(), {}, "reference");
+    if (reference && !isCompared)
+        throw Error(message<"grade.needless-reference">(), {}, "reference");
+    job.submission.wanted.isScene = grade::needsScene(rules);
+    if (!job.submission.wanted.isScene) job.submission.job.xml.clear();  // a mesh among its files
+    job.rubric = worker::packRubric(rules);
     return job;
 }
 

@@ -489,7 +489,7 @@ TEST_CASE("wrong arguments of grade are reported, with their exit code") {
         {"--reference nosuch.xml class -o out", 1, "[asset.missing]"},
         {"--reference reference.xml nosuch -o out", 1, "[asset.missing]"},
         {"--reference reference.xml empty -o out", 1, "[grade.no-submissions]"},
-        {"--reference reference.xml class -o out --rubric rubric.json", 1, "criteria[0].measure"},
+        {"--reference reference.xml class -o out --rubric rubric.json", 1, "/criteria/0/measure"},
         {"--reference class/carla.xml class -o out", 1, "[xml."},
         {"--reference reference.xml class -o out --jobs 99", 2, "--jobs"},
     }));

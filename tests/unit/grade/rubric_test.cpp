@@ -61,6 +61,28 @@ void numbers(const json& schema, std::vector<std::string> path, const Each& each
 
 /// The other keys that an object needs.
 void complete(json& rubric, const std::vector<std::string>& path) {
+    if (path[0] == "define") rubric["define"][0]["id"] = "a";
+    if (path[0] == "manual") rubric["manual"][0].update({{"id", "a"}, {"text", "t"}});
+    if (path[0] == "requirements") {
+        json& one = rubric["requirements"][0];
+        one.update({{"id", "a"}, {"text", "t"}});
+        if (!one.contains("select") && !one.contains("light") && !one.contains("mesh"))
+            one["select"] = json::object();
+    }
+    // The sum of a rubric's points stays within them.
+    if (path[0] == "requirements" || path[0] == "manual") rubric["points"] = 10'000;
+    // An interval's end must not pass the other one.
+    if (path.back() == "least" || path.back() == "most") {
+        json* at = &rubric;
+        for (std::size_t i = 0; i + 1 < path.size(); ++i)
+            at = path[i] == "[]" ? &(*at)[0] : &(*at)[path[i]];
+        if (path[0] != "penalties") {
+            const bool isDepth = path[path.size() - 2] == "depth";
+            const bool isShine = path[path.size() - 2] == "shininess";
+            if (path.back() == "least") (*at)["most"] = isDepth ? 256 : isShine ? 128 : 1;
+            if (path.back() == "most") (*at)["least"] = 0;
+        }
+    }
     if (path[0] != "criteria") return;
     const bool finding = path.back() == "perFinding";
     rubric["criteria"][0]["measure"] = finding ? "lights" : "difference";
@@ -112,23 +134,23 @@ TEST_CASE("faults of a rubric are named with their path") {
         const char* expected;
     };
     const Case one = GENERATE(values<Case>({
-        {R"({"pionts": 5})", "rubric.key pionts"},
-        {R"({"picture": {"hight": 5}})", "rubric.key picture.hight"},
-        {R"({"points": "many"})", "rubric.type points"},
-        {R"({"picture": []})", "rubric.type picture"},
-        {R"({"picture": {"samples": 3}})", "rubric.range picture.samples"},
-        {R"({"picture": {"shading": "cel"}})", "rubric.range picture.shading"},
-        {R"({"views": []})", "rubric.range views"},
-        {R"({"views": [{"camera": "mine"}]})", "rubric.range views[0].camera"},
-        {R"({"criteria": [{"measure": "beauty"}]})", "rubric.range criteria[0].measure"},
+        {R"({"pionts": 5})", "rubric.key /pionts"},
+        {R"({"picture": {"hight": 5}})", "rubric.key /picture/hight"},
+        {R"({"points": "many"})", "rubric.type /points"},
+        {R"({"picture": []})", "rubric.type /picture"},
+        {R"({"picture": {"samples": 3}})", "rubric.range /picture/samples"},
+        {R"({"picture": {"shading": "cel"}})", "rubric.range /picture/shading"},
+        {R"({"views": []})", "rubric.range /views"},
+        {R"({"views": [{"camera": "mine"}]})", "rubric.range /views/0/camera"},
+        {R"({"criteria": [{"measure": "beauty"}]})", "rubric.range /criteria/0/measure"},
         {R"({"criteria": [{"measure": "flip"}, {"measure": "flip"}]})",
-         "rubric.range criteria[1].measure"},
+         "rubric.range /criteria/1/measure"},
         {R"({"criteria": [{"measure": "flip", "tolerance": 0.9, "limit": 0.2}]})",
-         "rubric.range criteria[0].tolerance"},
-        {R"({"criteria": [{"measure": "lights", "limit": 0.2}]})", "rubric.key criteria[0].limit"},
-        {R"({"criteria": [{"measure": "flip", "weight": 0}]})", "rubric.range criteria"},
+         "rubric.range /criteria/0/tolerance"},
+        {R"({"criteria": [{"measure": "lights", "limit": 0.2}]})", "rubric.key /criteria/0/limit"},
+        {R"({"criteria": [{"measure": "flip", "weight": 0}]})", "rubric.range /criteria"},
         {R"({"penalties": {"codes": {"xml.quotes": -1}}})",
-         "rubric.range penalties.codes.xml.quotes"},
+         "rubric.range /penalties/codes/xml.quotes"},
         {R"([1])", "rubric.type "},
     }));
     INFO(one.json);

@@ -114,8 +114,8 @@ int run(const Flags& flags, Report& report) {
 }  // namespace
 
 void addCompare(CLI::App& root, Action& action) {
-    CLI::App* command = root.add_subcommand(
-        "compare", "Says how two pictures of one size, or two meshes, differ");
+    CLI::App* command =
+        root.add_subcommand("compare", "Says how two pictures of one size, or two meshes, differ");
     const auto flags = std::make_shared<Flags>();
     command->add_option("A", flags->first, "a picture file, or a mesh file")
         ->type_name("")

@@ -36,8 +36,7 @@ Call parse(const std::string& shape) {
 
 int check(const MeshComparison& comparison, const std::string& bytes,
           const generator::Mesh& expected, Report& report) {
-    const generator::MeshCheck found =
-        generator::checkMesh(bytes, comparison.file, expected);
+    const generator::MeshCheck found = generator::checkMesh(bytes, comparison.file, expected);
     report.setVerbose(true);
     report.add(found.findings);
     report.set("same", found.isRight());

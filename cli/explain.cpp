@@ -111,7 +111,8 @@ int explain(const render::Job& job, const grade::Rubric& rubric, Report& report)
               << joined(selectors.timesS(), " ", [](double timeS) { return rounded(timeS); })
               << " s\n";
     for (const grade::ExplainedSelector& one : all) {
-        std::cout << "\n" << one.id << (one.isDefinition ? " (define)" : "") << ": " << one.count
+        std::cout << "\n"
+                  << one.id << (one.isDefinition ? " (define)" : "") << ": " << one.count
                   << (one.count == 1 ? " object\n" : " objects\n");
         for (const grade::ExplainedObject& object : one.objects) print(object);
         printMisses(one.misses);
@@ -137,8 +138,7 @@ int run(const Flags& flags, Report& report) {
     job.options.missing = render::Missing::placeholder;
     report.setInput(job.name);
     const Confinement confinement{flags.confinement, {assetFolder(flags.scene, flags.assets)}, {}};
-    return confine(confinement, report,
-                   [&](Outputs&) { return explain(job, rubric, report); });
+    return confine(confinement, report, [&](Outputs&) { return explain(job, rubric, report); });
 }
 
 }  // namespace

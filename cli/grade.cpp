@@ -243,16 +243,18 @@ int run(const Flags& flags, Report& report) {
 }  // namespace
 
 void addGrade(CLI::App& root, Action& action) {
-    CLI::App* command = root.add_subcommand("grade", "Grades a class's scenes by a reference, or by a rubric's requirements");
+    CLI::App* command = root.add_subcommand(
+        "grade", "Grades a class's scenes by a reference, or by a rubric's requirements");
     const auto flags = std::make_shared<Flags>();
     command
         ->add_option("SUBMISSIONS", flags->submissions,
                      "folder with an entry for each student, or the .zip of the class")
         ->type_name("");
     command
-        ->add_option("--reference", flags->reference,
-                     "a scene, a picture, or a folder of them: a task each, found by its name; none "
-                     "where the rubric has requirements alone")
+        ->add_option(
+            "--reference", flags->reference,
+            "a scene, a picture, or a folder of them: a task each, found by its name; none "
+            "where the rubric has requirements alone")
         ->type_name("REF");
     command->add_option("-o,--output", flags->output, "folder for the reports; a run goes on in it")
         ->type_name("DIR");

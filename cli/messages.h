@@ -107,10 +107,12 @@ inline constexpr MessageRow kCliMessages[] = {
      "no format \"{name}\"[; did you mean \"{suggestion}\"?][; expected {known}]",
      {"gradescop", "gradescope", "html, json, gradescope"}},
     {"usage/grade-needless",
-     "the rubric leaves no points to a comparison with a reference; leave --reference out, or raise "
+     "the rubric leaves no points to a comparison with a reference; leave --reference out, or "
+     "raise "
      "\"points\" of the rubric"},
     {"usage/grade-reference",
-     "the rubric leaves {points} of its points to a comparison with a reference; give --reference, or "
+     "the rubric leaves {points} of its points to a comparison with a reference; give --reference, "
+     "or "
      "lower \"points\" of the rubric",
      {"40"}},
     {"usage/manual", "no subcommand \"{name}\"", {"rendr"}},

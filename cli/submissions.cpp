@@ -236,8 +236,7 @@ grade::Subject readSubject(const std::string& path, const grade::Wanted& wanted)
     const std::string name = fs::path(path).filename().string();
     // Files of other types are not read: grade::subjectOf() reports them by name.
     const bool isRead = !wanted.isScene || ending(path) == "xml" || isArchive(path) ||
-                        isPicture(path) ||
-                        typeOf(path) != fs::file_type::regular;
+                        isPicture(path) || typeOf(path) != fs::file_type::regular;
     return grade::subjectOf(single(name, isRead ? readRegularFile(path, kMaxBytes) : ""), path,
                             isArchive(name) ? wanted : grade::Wanted{"", {}, {}, wanted.isScene});
 }

@@ -21,7 +21,8 @@ inline constexpr MessageRow kServerMessages[] = {
      "the served folder cannot be read now: {reason}; try again later",
      {"it does not exist"}},
     {"grade.needless-reference",
-     "the rubric leaves no points to a comparison with a reference; leave the part \"reference\" out, "
+     "the rubric leaves no points to a comparison with a reference; leave the part \"reference\" "
+     "out, "
      "or raise \"points\" of the rubric"},
     {"grade.no-reference", "no part is named \"reference\"; send the reference as that part"},
     {"grade.no-submission", "no part is named \"submission\"; send the submission as that part"},

@@ -66,8 +66,8 @@ std::vector<Axes> otherAxes() {
             for (int row = 0; row < 3; ++row) {
                 const bool isNegative = (signs >> row & 1) != 0;
                 axes.matrix[order[row]][row] = isNegative ? -1.0 : 1.0;
-                axes.text += std::string(row > 0 ? " " : "") + (isNegative ? "-" : "") +
-                             "xyz"[order[row]];
+                axes.text +=
+                    std::string(row > 0 ? " " : "") + (isNegative ? "-" : "") + "xyz"[order[row]];
             }
             axes.matrix[3][3] = 1.0;
             if (axes.text != "x y z") out.push_back(std::move(axes));
@@ -93,8 +93,7 @@ glm::dmat4 fit(const Expected& expected, const Cloud& cloud, bool isScaled) {
         if (mine > expected.places.reach() && theirs > expected.places.reach())
             scale[axis] = theirs / mine;
     }
-    const glm::dvec3 middle = 0.5 * (low + high),
-                     wanted = 0.5 * (expected.low + expected.high);
+    const glm::dvec3 middle = 0.5 * (low + high), wanted = 0.5 * (expected.low + expected.high);
     glm::dmat4 out = glm::translate(glm::dmat4(1.0), wanted);
     out = glm::scale(out, scale);
     return glm::translate(out, -middle);
@@ -141,8 +140,8 @@ double align(const Expected& expected, Checked& checked, Findings& findings) {
     if (asItIs >= kMost) return asItIs;
     if (const std::optional<double> turn = startOf(expected, cloud)) {
         const glm::dmat4 matrix = glm::rotate(glm::dmat4(1.0), *turn, glm::dvec3(0, 1, 0));
-        findings.add(Severity::info, checkMessage<"check.turned">(
-                                         "degrees"_arg = glm::degrees(*turn)));
+        findings.add(Severity::info,
+                     checkMessage<"check.turned">("degrees"_arg = glm::degrees(*turn)));
         apply(matrix, checked);
         return cloud.share(matrix);
     }
@@ -165,8 +164,7 @@ double align(const Expected& expected, Checked& checked, Findings& findings) {
                              "found"_arg = placeText(high - low),
                              "expected"_arg = placeText(expected.high - expected.low)));
         const glm::dvec3 mine = 0.5 * (low + high), theirs = 0.5 * (expected.low + expected.high);
-        const bool isMoved =
-            glm::length(mine - theirs) > expected.places.reach() && !isScaled;
+        const bool isMoved = glm::length(mine - theirs) > expected.places.reach() && !isScaled;
         if (isMoved)
             findings.add(Severity::error,
                          checkMessage<"check.place">("found"_arg = placeText(mine),

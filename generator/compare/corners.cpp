@@ -11,8 +11,8 @@
 namespace farol::generator::compare {
 namespace {
 
-constexpr double kNormal = 0.99863;      // cosine of 3 degrees
-constexpr double kCoordinate = 2e-3;     // of a texture
+constexpr double kNormal = 0.99863;   // cosine of 3 degrees
+constexpr double kCoordinate = 2e-3;  // of a texture
 constexpr double kNearlyAll = 0.9;
 
 /// A corner of an expected triangle.
@@ -112,11 +112,11 @@ class CornerComparer {
                    static_cast<double>(some.size()) >= kNearlyAll * static_cast<double>(all.size());
         };
         if (!longOnes.empty())
-            findings_.add(Severity::error,
-                          checkMessage<"check.normals/length">(
-                              "count"_arg = longOnes.size(),
-                              "length"_arg = std::round(length * 1e4) / 1e4),
-                          checked_.lines[*longOnes.begin()]);
+            findings_.add(
+                Severity::error,
+                checkMessage<"check.normals/length">("count"_arg = longOnes.size(),
+                                                     "length"_arg = std::round(length * 1e4) / 1e4),
+                checked_.lines[*longOnes.begin()]);
         if (isMost(inward)) {
             findings_.add(Severity::error,
                           checkMessage<"check.normals/inward">("count"_arg = inward.size()),
@@ -131,11 +131,11 @@ class CornerComparer {
             return;
         }
         for (const std::uint32_t index : wrong)
-            findings_.add(Severity::error,
-                          checkMessage<"check.normals">(
-                              "found"_arg = placeText(glm::dvec3(normals[index])),
-                              "expected"_arg = placeText(wanted[index])),
-                          checked_.lines[index]);
+            findings_.add(
+                Severity::error,
+                checkMessage<"check.normals">("found"_arg = placeText(glm::dvec3(normals[index])),
+                                              "expected"_arg = placeText(wanted[index])),
+                checked_.lines[index]);
     }
 
     void compareCoordinates() {
@@ -176,7 +176,8 @@ class CornerComparer {
              checkMessage<"check.uv/swapped">()}};
         for (const Change& change : changes) {
             const std::set<std::uint32_t> left = wrongBy(change.apply, 0.0);
-            if (static_cast<double>(left.size()) > (1.0 - kNearlyAll) * static_cast<double>(count()))
+            if (static_cast<double>(left.size()) >
+                (1.0 - kNearlyAll) * static_cast<double>(count()))
                 continue;
             findings_.add(Severity::error, change.message, checked_.lines[*wrong.begin()]);
             return;
@@ -210,9 +211,8 @@ class CornerComparer {
     }
     bool hasMany(const Vertex& vertex, bool (*isOther)(const Corner&, const Corner&)) const {
         const std::vector<Corner>& all = corners_.at(vertex.id);
-        return std::any_of(all.begin(), all.end(), [&](const Corner& one) {
-            return isOther(one, all.front());
-        });
+        return std::any_of(all.begin(), all.end(),
+                           [&](const Corner& one) { return isOther(one, all.front()); });
     }
 
     /// The coordinate without the whole turns that all of the file's have more than expected.
@@ -232,8 +232,7 @@ class CornerComparer {
             const bool anyU = isOnAxis(vertex.id);
             bool isRight = false;
             for (const Corner* corner : cornersAt(vertex)) {
-                const bool isU =
-                    anyU || differenceOfU(uv.x - start, corner->uv.x) <= kCoordinate;
+                const bool isU = anyU || differenceOfU(uv.x - start, corner->uv.x) <= kCoordinate;
                 isRight = isRight || (isU && std::abs(uv.y - corner->uv.y) <= kCoordinate);
             }
             if (!isRight) wrong.insert(vertex.index);
@@ -267,12 +266,12 @@ class CornerComparer {
                 if (vertex.index != index) continue;
                 const std::vector<const Corner*> corners = cornersAt(vertex);
                 if (corners.empty()) continue;
-                findings_.add(Severity::error,
-                              checkMessage<"check.uv">(
-                                  "found"_arg = uvText(uvOf(index)),
-                                  "expected"_arg =
-                                      uvText(corners.front()->uv + glm::dvec2(start, 0.0))),
-                              checked_.lines[index]);
+                findings_.add(
+                    Severity::error,
+                    checkMessage<"check.uv">(
+                        "found"_arg = uvText(uvOf(index)),
+                        "expected"_arg = uvText(corners.front()->uv + glm::dvec2(start, 0.0))),
+                    checked_.lines[index]);
                 break;
             }
     }

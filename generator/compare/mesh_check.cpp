@@ -48,9 +48,8 @@ std::size_t countPlaces(const compare::Checked& checked) {
 }  // namespace
 
 bool MeshCheck::isRight() const {
-    return std::none_of(findings.begin(), findings.end(), [](const Diagnostic& one) {
-        return one.severity == Severity::error;
-    });
+    return std::none_of(findings.begin(), findings.end(),
+                        [](const Diagnostic& one) { return one.severity == Severity::error; });
 }
 
 MeshCheck checkMesh(std::string_view bytes, const std::string& fileName, const Mesh& expected) {
@@ -67,9 +66,9 @@ MeshCheck checkMesh(std::string_view bytes, const std::string& fileName, const M
     out.expectedPlaces = theirs.places.all().size();
     if (share < kOther) {
         findings.add(Severity::error,
-                     checkMessage<"check.divisions">("share"_arg = std::round(1000.0 * share) / 10.0,
-                                                     "found"_arg = out.triangles,
-                                                     "expected"_arg = out.expectedTriangles));
+                     checkMessage<"check.divisions">(
+                         "share"_arg = std::round(1000.0 * share) / 10.0,
+                         "found"_arg = out.triangles, "expected"_arg = out.expectedTriangles));
     } else {
         const std::vector<compare::Matched> matched =
             compare::matchTriangles(theirs, checked, findings);

@@ -24,8 +24,8 @@ struct MeshCheck {
 /// 1/2000 of the diagonal of the bounds, and a quarter of the shortest edge; normals within 3
 /// degrees; coordinates within 0.002. Accepted are the order of vertices and triangles, shared
 /// vertices or not, the other diagonal of a quad, divisions of a round shape that start at another
-/// angle, the start of its texture's seam, whole turns of coordinates, and the direction of u at its
-/// axis. The file is read as it is: nothing is repaired. Throws Error mesh.* where it cannot be
+/// angle, the start of its texture's seam, whole turns of coordinates, and the direction of u at
+/// its axis. The file is read as it is: nothing is repaired. Throws Error mesh.* where it cannot be
 /// read.
 MeshCheck checkMesh(std::string_view bytes, const std::string& fileName, const Mesh& expected);
 

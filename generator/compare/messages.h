@@ -6,12 +6,8 @@ namespace farol::generator {
 
 /// Findings about a mesh that is checked against an expected one.
 inline constexpr MessageRow kCheckMessages[] = {
-    {"check.axes",
-     "its axes are exchanged or mirrored: x y z are at {found}",
-     {"x z -y"}},
-    {"check.cap",
-     "a flat side is missing: {count} triangles about {place}",
-     {"10", "0 0 0"}},
+    {"check.axes", "its axes are exchanged or mirrored: x y z are at {found}", {"x z -y"}},
+    {"check.cap", "a flat side is missing: {count} triangles about {place}", {"10", "0 0 0"}},
     {"check.degenerate",
      "triangle {triangle} has no area: two of its corners are at {place}",
      {"12", "0 1 0"}},
@@ -33,9 +29,7 @@ inline constexpr MessageRow kCheckMessages[] = {
     {"check.normals/flat",
      "the normals of {count} vertices are those of the faces; expected those of the surface",
      {"180"}},
-    {"check.normals/inward",
-     "the normals of {count} vertices point inward; negate them",
-     {"180"}},
+    {"check.normals/inward", "the normals of {count} vertices point inward; negate them", {"180"}},
     {"check.normals/length",
      "the normals of {count} vertices have a length of {length}; normalise them",
      {"180", "2"}},

@@ -52,8 +52,7 @@ class TriangleMatcher {
     /// third corner of an expected triangle whose other two corners are right.
     void moveToExpected() {
         std::set<int> used;
-        for (const std::uint32_t index : checked_.arrays.indices)
-            used.insert(checked_.idOf[index]);
+        for (const std::uint32_t index : checked_.arrays.indices) used.insert(checked_.idOf[index]);
         std::map<Edge, int> third;  // by directed edge
         for (const Triangle& t : expected_.triangles)
             for (int k = 0; k < 3; ++k) third[{t[k], t[(k + 1) % 3]}] = t[(k + 2) % 3];
@@ -111,10 +110,9 @@ class TriangleMatcher {
                 const int corner = triangle[0] == triangle[1] ? 0 : 2;
                 findings_.add(
                     Severity::warning,
-                    checkMessage<"check.degenerate">("triangle"_arg = t + 1,
-                                                     "place"_arg = placeText(
-                                                         placeOf(triangle[static_cast<std::size_t>(
-                                                             corner)]))),
+                    checkMessage<"check.degenerate">(
+                        "triangle"_arg = t + 1, "place"_arg = placeText(placeOf(
+                                                    triangle[static_cast<std::size_t>(corner)]))),
                     lineOfTriangle(t));
                 isOpen_[t] = false;
                 continue;
@@ -250,8 +248,7 @@ class TriangleMatcher {
         if (!(length > 2.0 * reach)) return false;
         const glm::dvec3 way = (b - a) / length;
         const double along = glm::dot(p - a, way);
-        return along > reach && along < length - reach &&
-               glm::length(p - a - along * way) <= reach;
+        return along > reach && along < length - reach && glm::length(p - a - along * way) <= reach;
     }
 
     void reportJunction(const Edge& edge, int id) {
@@ -267,7 +264,9 @@ class TriangleMatcher {
                 if (corner == id) isOpen_[t] = false;
         for (std::size_t w = 0; w < isMissing_.size(); ++w) {
             const Triangle& t = expected_.triangles[w];
-            const auto has = [&](int corner) { return t[0] == corner || t[1] == corner || t[2] == corner; };
+            const auto has = [&](int corner) {
+                return t[0] == corner || t[1] == corner || t[2] == corner;
+            };
             if (has(edge.first) && has(edge.second)) isMissing_[w] = false;
         }
     }
@@ -349,11 +348,12 @@ class TriangleMatcher {
             }
             if (!isWhole || side.size() < 2 || side.size() == isMissing_.size()) continue;
             for (const std::size_t other : side) isMissing_[other] = false;
-            findings_.add(Severity::error,
-                          checkMessage<"check.cap">(
-                              "count"_arg = side.size(),
-                              "place"_arg = placeText(sum / (3.0 * static_cast<double>(side.size())))),
-                          checked_.lineOf(expected_.triangles[side.front()][0]));
+            findings_.add(
+                Severity::error,
+                checkMessage<"check.cap">(
+                    "count"_arg = side.size(),
+                    "place"_arg = placeText(sum / (3.0 * static_cast<double>(side.size())))),
+                checked_.lineOf(expected_.triangles[side.front()][0]));
         }
     }
 
@@ -370,14 +370,13 @@ class TriangleMatcher {
                 hasAll = hasAll && of > 0;
                 if (line == 0) line = of;
             }
-            findings_.add(
-                Severity::error,
-                hasAll ? checkMessage<"check.missing">("lines"_arg = checked_.lineList(t))
-                       : checkMessage<"check.missing/place">(
-                             "places"_arg = uncut(placeText(placeOf(t[0])) + ", " +
-                                                  placeText(placeOf(t[1])) + " and " +
-                                                  placeText(placeOf(t[2])))),
-                line);
+            findings_.add(Severity::error,
+                          hasAll ? checkMessage<"check.missing">("lines"_arg = checked_.lineList(t))
+                                 : checkMessage<"check.missing/place">(
+                                       "places"_arg = uncut(placeText(placeOf(t[0])) + ", " +
+                                                            placeText(placeOf(t[1])) + " and " +
+                                                            placeText(placeOf(t[2])))),
+                          line);
         }
     }
 

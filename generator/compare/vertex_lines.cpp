@@ -47,9 +47,8 @@ class Numbers {
             } else if (isNumberStart()) {
                 std::size_t end = at_ + 1;
                 while (end < text_.size() && isNumberPart(end)) ++end;
-                const auto number =
-                    parseExact<double>(text_.substr(at_ + (c == '+' ? 1 : 0), end - at_ -
-                                                                             (c == '+' ? 1 : 0)));
+                const auto number = parseExact<double>(
+                    text_.substr(at_ + (c == '+' ? 1 : 0), end - at_ - (c == '+' ? 1 : 0)));
                 at_ = end;
                 if (!number) continue;
                 value = *number;

@@ -140,11 +140,11 @@ struct Requirements::State {
                 continue;
             }
             RequiredThing miss = thing(matches[i]);
-            miss.reason = requirementMessage<"part.miss/order">(
-                              "rising"_arg = kOrderWords[order.rising],
-                              "value"_arg = shortNumber(values[i]),
-                              "before"_arg = shortNumber(before))
-                              .text;
+            miss.reason =
+                requirementMessage<"part.miss/order">("rising"_arg = kOrderWords[order.rising],
+                                                      "value"_arg = shortNumber(values[i]),
+                                                      "before"_arg = shortNumber(before))
+                    .text;
             misses.push_back(std::move(miss));
         }
         matches = std::move(kept);
@@ -158,9 +158,8 @@ struct Requirements::State {
         std::map<std::string, std::size_t> first;
         std::vector<std::size_t> kept;
         for (const std::size_t object : matches) {
-            const std::string key = isImage
-                                        ? inventory.imageOf(object)
-                                        : std::to_string(inventory.objects()[object].mesh->id);
+            const std::string key = isImage ? inventory.imageOf(object)
+                                            : std::to_string(inventory.objects()[object].mesh->id);
             const auto [known, isNew] = first.emplace(key, object);
             if (isNew) {
                 kept.push_back(object);
@@ -209,10 +208,11 @@ struct Requirements::State {
         Counted counted;
         if (rule.select) counted = countObjects(rule);
         if (rule.light) counted = countLights(rule);
-        if (rule.mesh) counted.found = countFiles(*rule.mesh, inventory.assets(), counted.matches,
-                                                  counted.misses);
-        RequirementGrade out = gradeOf(rule, counted.found,
-                                       static_cast<int>(selector.objectsOf(rule.each).size()));
+        if (rule.mesh)
+            counted.found =
+                countFiles(*rule.mesh, inventory.assets(), counted.matches, counted.misses);
+        RequirementGrade out =
+            gradeOf(rule, counted.found, static_cast<int>(selector.objectsOf(rule.each).size()));
         out.matches = std::move(counted.matches);
         if (out.met != Met::yes) out.misses = std::move(counted.misses);
         return out;
@@ -224,8 +224,8 @@ struct Requirements::State {
         out.shape = inventory.shapeOf(object);
         if (!inventory.imageOf(object).empty())
             out.image = inventory.objects()[object].model->texture->path;
-        out.depth = inventory.nodes()[static_cast<std::size_t>(inventory.objects()[object].node)]
-                        .depth;
+        out.depth =
+            inventory.nodes()[static_cast<std::size_t>(inventory.objects()[object].node)].depth;
         out.radius = inventory.radius(object, seen.timesS().front());
         out.moves = motion.moves(object);
         out.pixels = seen.pixelsOf(object);

@@ -17,19 +17,19 @@ inline constexpr EnumWords<Met, Met::yes> kMetWords{"not met", "partly met", "me
 
 /// An object, light or file that matches a requirement, or nearly does.
 struct RequiredThing {
-    std::string who;         ///< "\"Earth\"", "model 4 (sphere)"
-    Location where;          ///< its lines in the document, or a vertex's in its file
-    std::string excerpt;     ///< the lines there
-    std::string reason;      ///< why it does not match; empty: it does
+    std::string who;      ///< "\"Earth\"", "model 4 (sphere)"
+    Location where;       ///< its lines in the document, or a vertex's in its file
+    std::string excerpt;  ///< the lines there
+    std::string reason;   ///< why it does not match; empty: it does
 };
 
 /// One requirement as it was found.
 struct RequirementGrade {
-    std::string id, text;     ///< of the rubric
+    std::string id, text;  ///< of the rubric
     double points = 0, most = 0;
     Met met = Met::no;
     int found = 0, needed = 0;
-    std::string reason;                 ///< "7 of 8 found"
+    std::string reason;                  ///< "7 of 8 found"
     std::vector<RequiredThing> matches;  ///< the first kShownThings
     std::vector<RequiredThing> misses;   ///< likewise; none where the requirement is met
 };
@@ -40,9 +40,9 @@ struct ExplainedObject {
     RequiredThing thing;
     std::string shape, image;
     int depth = 0;
-    double radius = 0;                   ///< world units, at the first time
+    double radius = 0;  ///< world units, at the first time
     bool moves = false;
-    std::vector<int> pixels;             ///< by time
+    std::vector<int> pixels;  ///< by time
     std::optional<double> orbitRadius, periodS;
 };
 struct ExplainedSelector {

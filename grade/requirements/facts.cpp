@@ -9,8 +9,8 @@
 namespace farol::grade {
 namespace {
 
-constexpr int kChange = 8;            // levels of 255
-constexpr double kChanged = 0.05;     // of an object's pixels
+constexpr int kChange = 8;         // levels of 255
+constexpr double kChanged = 0.05;  // of an object's pixels
 constexpr int kVisiblePixels = 16;
 
 }  // namespace
@@ -58,8 +58,7 @@ std::vector<int> SeenFacts::pixelsOf(std::size_t object) {
     for (const double timeS : timesS_) {
         int most = 0;
         for (std::size_t i = 0; i < shots_.size(); ++i)
-            if (shots_[i].options.timeS == timeS)
-                most = std::max(most, frame(i).pixels[object]);
+            if (shots_[i].options.timeS == timeS) most = std::max(most, frame(i).pixels[object]);
         out.push_back(most);
     }
     return out;
@@ -96,17 +95,14 @@ const std::vector<std::vector<double>>& SeenFacts::changesWithout(
 }
 
 bool SeenFacts::matters(std::size_t object, Effect effect) {
-    const auto& shares = changesWithout(-1 - static_cast<int>(effect), [&] {
-        return without(*prepared_, inventory_, effect);
-    });
-    return std::any_of(shares.begin(), shares.end(), [&](const std::vector<double>& shot) {
-        return shot[object] >= kChanged;
-    });
+    const auto& shares = changesWithout(-1 - static_cast<int>(effect),
+                                        [&] { return without(*prepared_, inventory_, effect); });
+    return std::any_of(shares.begin(), shares.end(),
+                       [&](const std::vector<double>& shot) { return shot[object] >= kChanged; });
 }
 
 std::optional<bool> SeenFacts::isLitBy(std::size_t object, int light) {
-    const auto& shares =
-        changesWithout(light, [&] { return withoutLight(*prepared_, light); });
+    const auto& shares = changesWithout(light, [&] { return withoutLight(*prepared_, light); });
     std::optional<bool> isLit;
     for (std::size_t shot = 0; shot < shots_.size(); ++shot) {
         if (frame(shot).pixels[object] < kVisiblePixels) continue;

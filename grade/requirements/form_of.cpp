@@ -115,17 +115,15 @@ bool isTorus(const Profile& profile) {
     for (const glm::dvec2& p : profile.all) least = std::min(least, p.y);
     const double tube = 0.5 * (profile.width - least), ring = 0.5 * (profile.width + least);
     return least > 10.0 * kRough && isNear(tube, profile.height) &&
-           profile.every([&](const glm::dvec2& p) {
-               return isNear(std::hypot(p.x, p.y - ring), tube);
-           });
+           profile.every(
+               [&](const glm::dvec2& p) { return isNear(std::hypot(p.x, p.y - ring), tube); });
 }
 
 /// Whether all vertices are on the unit sphere after a division by `radii`. Coarse spheres have
 /// other bounds than the exact one, so the middle may be off by half a division.
 bool isBall(const std::vector<glm::dvec3>& points, const glm::dvec3& radii) {
-    return std::all_of(points.begin(), points.end(), [&](const glm::dvec3& p) {
-        return isNear(glm::length(p / radii), 1.0);
-    });
+    return std::all_of(points.begin(), points.end(),
+                       [&](const glm::dvec3& p) { return isNear(glm::length(p / radii), 1.0); });
 }
 
 std::optional<std::string> ballOf(const generator::Mesh& mesh, const Points& points) {

@@ -44,9 +44,9 @@ void Inventory::fill(int node, render::MeshLibrary& meshes) {
     }
     for (const scene::Model& model : group.models) {
         if (objects_.size() >= scene::kMaxInstances)
-            throw Error(render::message<"limit.instances/models">(
-                            "most"_arg = scene::kMaxInstances),
-                        model.where);
+            throw Error(
+                render::message<"limit.instances/models">("most"_arg = scene::kMaxInstances),
+                model.where);
         const int number = static_cast<int>(numbers_.size()) + 1;
         objects_.push_back({&model, node, numbers_.emplace(&model, number).first->second,
                             meshes.get(model, *prepared_.assets)});

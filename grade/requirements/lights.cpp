@@ -42,8 +42,7 @@ std::string unlit(const LightSelector& selector, ObjectSelector& objects,
                   const Inventory::Light& light) {
     std::size_t visible = 0, lit = 0;
     for (const std::size_t target : objects.objectsOf(selector.lights)) {
-        const std::optional<bool> isLit =
-            objects.scene().seen.isLitBy(target, light.ordinal);
+        const std::optional<bool> isLit = objects.scene().seen.isLitBy(target, light.ordinal);
         visible += isLit ? 1 : 0;
         lit += isLit && *isLit ? 1 : 0;
     }

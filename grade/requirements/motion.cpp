@@ -6,7 +6,7 @@
 namespace farol::grade {
 namespace {
 
-constexpr double kStill = 0.05;   // of the distance to what turns about it
+constexpr double kStill = 0.05;    // of the distance to what turns about it
 constexpr double kNothing = 1e-4;  // of a size: rounding
 
 /// Moments of a period that no simple part of another one falls on.
@@ -103,8 +103,8 @@ std::optional<Orbit> Motion::orbit(std::size_t object, std::size_t other) {
     const auto known = orbits_.find({object, other});
     if (known != orbits_.end()) return known->second;
     std::optional<Orbit> found;
-    int node = inventory_.commonOf(inventory_.objects()[object].node,
-                                   inventory_.objects()[other].node);
+    int node =
+        inventory_.commonOf(inventory_.objects()[object].node, inventory_.objects()[other].node);
     while (true) {
         found = findOrbit(node, object, other);
         if (found || node < 0) break;

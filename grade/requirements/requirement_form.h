@@ -100,8 +100,7 @@ void describeSelector(Form& form, Selector& select, const KnownIds& known) {
 template <typename Form>
 void describeDefinition(Form& form, Definition& definition, KnownIds& known) {
     form.requiredText("id", definition.id, "The name of these objects in the rubric.");
-    form.object("select",
-                [&](Form& inner) { describeSelector(inner, definition.select, known); });
+    form.object("select", [&](Form& inner) { describeSelector(inner, definition.select, known); });
     known.add(form, definition.id);
 }
 
@@ -125,7 +124,8 @@ void describeRequirement(Form& form, Requirement& requirement, KnownIds& known) 
     form.maybe("mesh", requirement.mesh, MeshSelector{},
                "Mesh files of the submission that are what farol generate makes.",
                [](Form& inner, MeshSelector& mesh) {
-                   inner.requiredText("file", mesh.file, "Pattern with * and ? of the file's name.");
+                   inner.requiredText("file", mesh.file,
+                                      "Pattern with * and ? of the file's name.");
                    inner.requiredText("shape", mesh.shape,
                                       "Words as farol generate takes them: sphere 1 10 10.");
                    const std::string problem = problemOfShape(mesh.shape);
@@ -152,7 +152,8 @@ void describeRequirement(Form& form, Requirement& requirement, KnownIds& known) 
         const auto isOrbital = [](OrderKey key) {
             return key == OrderKey::orbit || key == OrderKey::period;
         };
-        const bool isOrbit = isOrbital(requirement.order->by) || isOrbital(requirement.order->rising);
+        const bool isOrbit =
+            isOrbital(requirement.order->by) || isOrbital(requirement.order->rising);
         form.template require<"rubric.range/orbit">(
             !isOrbit || (requirement.select && !requirement.select->turnsAbout.empty()), "order");
     }

@@ -44,8 +44,7 @@ Found checkName(ObjectSelector& of, const Selector& select, std::size_t object) 
          at = inventory.nodes()[static_cast<std::size_t>(at)].parent)
         isMatch = isLike(inventory.nodes()[static_cast<std::size_t>(at)].group->name, select.name);
     if (isMatch) return {};
-    return faultOf(of, object,
-                   requirementMessage<"part.miss/name">("pattern"_arg = select.name));
+    return faultOf(of, object, requirementMessage<"part.miss/name">("pattern"_arg = select.name));
 }
 
 Found checkTexture(ObjectSelector& of, const Selector& select, std::size_t object) {
@@ -135,7 +134,8 @@ Found checkMaterial(ObjectSelector& of, const Selector& select, std::size_t obje
         {"emissive", look.emissive, brightness(material.emissive)},
         {"shininess", look.shininess, static_cast<double>(material.shininess)}};
     for (const Property& one : properties)
-        if (one.range && (one.value < one.range->least - 1e-6 || one.value > one.range->most + 1e-6))
+        if (one.range &&
+            (one.value < one.range->least - 1e-6 || one.value > one.range->most + 1e-6))
             return faultOf(of, object,
                            requirementMessage<"part.miss/material">(
                                "property"_arg = one.name, "value"_arg = shortNumber(one.value),
@@ -198,10 +198,10 @@ Found checkSeen(ObjectSelector& of, const Selector& select, std::size_t object) 
     const auto needed =
         std::min<std::ptrdiff_t>(select.seen->times, static_cast<std::ptrdiff_t>(pixels.size()));
     if (count >= needed) return {};
-    return faultOf(of, object,
-                   requirementMessage<"part.miss/seen">(
-                       "least"_arg = select.seen->pixels, "count"_arg = count,
-                       "times"_arg = pixels.size(), "needed"_arg = needed));
+    return faultOf(
+        of, object,
+        requirementMessage<"part.miss/seen">("least"_arg = select.seen->pixels, "count"_arg = count,
+                                             "times"_arg = pixels.size(), "needed"_arg = needed));
 }
 
 Found checkMatters(ObjectSelector& of, const Selector& select, std::size_t object) {
@@ -215,18 +215,26 @@ Found checkMatters(ObjectSelector& of, const Selector& select, std::size_t objec
 /// The conditions, those first that say whether an object is meant at all, then by cost.
 struct Condition {
     ObjectSelector::Check check;
-    bool isOfKind = true;    ///< see NearMiss
+    bool isOfKind = true;   ///< see NearMiss
     bool isCostly = false;  ///< renders, or looks at all triangles
 };
 constexpr std::array kConditions{
-    Condition{checkShape, false},       Condition{checkName, false},
-    Condition{checkNot, false},         Condition{checkTexture},
-    Condition{checkEmissive},           Condition{checkMaterial},
-    Condition{checkDepth},              Condition{checkTurns},
-    Condition{checkCurve},              Condition{checkMoves},
-    Condition{checkOrbit},              Condition{checkBelow},
-    Condition{checkAbove},              Condition{checkBuried, true, true},
-    Condition{checkSeen, true, true},   Condition{checkMatters, true, true},
+    Condition{checkShape, false},
+    Condition{checkName, false},
+    Condition{checkNot, false},
+    Condition{checkTexture},
+    Condition{checkEmissive},
+    Condition{checkMaterial},
+    Condition{checkDepth},
+    Condition{checkTurns},
+    Condition{checkCurve},
+    Condition{checkMoves},
+    Condition{checkOrbit},
+    Condition{checkBelow},
+    Condition{checkAbove},
+    Condition{checkBuried, true, true},
+    Condition{checkSeen, true, true},
+    Condition{checkMatters, true, true},
 };
 
 }  // namespace
@@ -235,7 +243,8 @@ bool isLike(std::string_view name, std::string_view pattern) {
     std::size_t at = 0, in = 0, star = std::string_view::npos, kept = 0;
     while (in < name.size()) {
         if (at < pattern.size() &&
-            (pattern[at] == '?' || (pattern[at] != '*' && lowerCase(pattern[at]) == lowerCase(name[in])))) {
+            (pattern[at] == '?' ||
+             (pattern[at] != '*' && lowerCase(pattern[at]) == lowerCase(name[in])))) {
             ++at;
             ++in;
         } else if (at < pattern.size() && pattern[at] == '*') {
@@ -271,8 +280,7 @@ std::optional<Orbit> ObjectSelector::orbitAbout(std::size_t object, const std::s
 Selection ObjectSelector::select(const Selector& selector, const std::string& among) {
     std::vector<std::size_t> candidates = objectsOf(among);
     if (among.empty())
-        for (std::size_t i = 0; i < scene_.inventory.objects().size(); ++i)
-            candidates.push_back(i);
+        for (std::size_t i = 0; i < scene_.inventory.objects().size(); ++i) candidates.push_back(i);
     Selection out;
     for (const std::size_t object : candidates) {
         std::optional<NearMiss> near;

@@ -11,8 +11,7 @@ namespace {
 constexpr std::size_t kSamples = 24;  // vertices of an object that are tried
 
 bool holds(const render::Box& outer, const render::Box& inner) {
-    return !outer.empty() && !inner.empty() &&
-           glm::all(glm::lessThanEqual(outer.min, inner.min)) &&
+    return !outer.empty() && !inner.empty() && glm::all(glm::lessThanEqual(outer.min, inner.min)) &&
            glm::all(glm::greaterThanEqual(outer.max, inner.max));
 }
 
@@ -42,8 +41,8 @@ Solids::Solids(const Inventory& inventory, std::vector<double> timesS, std::vect
                 const glm::dvec3 at(corner & 1 ? local.max.x : local.min.x,
                                     corner & 2 ? local.max.y : local.min.y,
                                     corner & 4 ? local.max.z : local.min.z);
-                box.add(glm::dvec3(worlds.back() *
-                                   glm::dvec4(object.mesh->mesh.origin() + at, 1.0)));
+                box.add(
+                    glm::dvec3(worlds.back() * glm::dvec4(object.mesh->mesh.origin() + at, 1.0)));
             }
         }
     }
@@ -78,8 +77,7 @@ bool Solids::isInside(std::size_t object, std::size_t other, std::size_t time) {
     const std::size_t count = mesh.positions().size();
     const std::size_t step = std::max<std::size_t>(1, count / kSamples);
     for (std::size_t i = 0; i < count; i += step) {
-        const glm::dvec3 at =
-            glm::dvec3(worlds_[time][object] * glm::dvec4(mesh.place(i), 1.0));
+        const glm::dvec3 at = glm::dvec3(worlds_[time][object] * glm::dvec4(mesh.place(i), 1.0));
         if (!hasInside(other, at, time)) return false;
     }
     return count > 0;

@@ -26,9 +26,9 @@ class Solids {
     const Inventory& inventory_;
     std::vector<double> timesS_;
     std::vector<glm::dvec3> eyes_;
-    std::vector<std::vector<glm::dmat4>> worlds_;    ///< by time and object
-    std::vector<std::vector<render::Box>> boxes_;    ///< likewise, world space
-    std::map<std::uint64_t, bool> closed_;           ///< by mesh
+    std::vector<std::vector<glm::dmat4>> worlds_;  ///< by time and object
+    std::vector<std::vector<render::Box>> boxes_;  ///< likewise, world space
+    std::map<std::uint64_t, bool> closed_;         ///< by mesh
 };
 
 }  // namespace farol::grade

@@ -103,10 +103,9 @@ void addUnmet(const Grade& grade, ordered_json& findings) {
         const auto text = "text"_arg = uncut(one.text);
         const auto reason = "reason"_arg = one.reason;
         const auto miss = "miss"_arg = uncut(first);
-        const Message message =
-            one.met == Met::partly
-                ? requirementMessage<"requirement.partly">(text, reason, miss)
-                : requirementMessage<"requirement.unmet">(text, reason, miss);
+        const Message message = one.met == Met::partly
+                                    ? requirementMessage<"requirement.partly">(text, reason, miss)
+                                    : requirementMessage<"requirement.unmet">(text, reason, miss);
         ordered_json entry{{"code", message.code()},
                            {"criterion", one.id},
                            {"message", message.text},

@@ -428,7 +428,8 @@ Grade Grader::grade(const Subject& reference, const Subject& given, const Rubric
     Subject submission = given;
     bool scenes = isAlone || !against->screen;
     try {
-        submission = opened(given, isAlone ? std::vector<std::string>() : filesNamedIn(against->job.xml));
+        submission =
+            opened(given, isAlone ? std::vector<std::string>() : filesNamedIn(against->job.xml));
         const bool isImage = scenes && submission.picture.has_value();
         scenes = scenes && !isImage;
         if (isAlone && isImage) throw Error(message<"grade.image">());

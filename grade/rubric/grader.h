@@ -96,8 +96,8 @@ class Grader {
     /// The grade depends on the arguments only, not on earlier calls.
     Grade grade(const Subject& reference, const Subject& submission, const Rubric& rubric);
 
-    /// The image of the reference in each view, JPEG, in the order of Grade::views; none where there
-    /// is no reference. Throws Error.
+    /// The image of the reference in each view, JPEG, in the order of Grade::views; none where
+    /// there is no reference. Throws Error.
     std::vector<std::string> picturesOf(const Subject& reference, const Rubric& rubric);
 
   private:

@@ -43,8 +43,8 @@ class Walker {
             } else if (c == ',' || c == ':') {
                 ++at;
             } else {
-                while (at < text_.size() && std::string_view(",:]} \t\r\n").find(text_[at]) ==
-                                                std::string_view::npos)
+                while (at < text_.size() &&
+                       std::string_view(",:]} \t\r\n").find(text_[at]) == std::string_view::npos)
                     ++at;
             }
         } while (depth > 0 && at < text_.size());

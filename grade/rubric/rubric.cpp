@@ -165,9 +165,10 @@ void describe(Form& form, Rubric& rubric) {
         penalties.number("warning", rubric.perWarning, 0, 10'000, "Points for each warning.");
         penalties.number("most", rubric.mostPenalty, 0, 10'000,
                          "Points that all together may cost.");
-        penalties.numbersByKey("codes", rubric.byCode, 0, 10'000,
-                               "Points for each diagnostic of a code, in place of warning's, or for "
-                               "each finding of a code, beside what it costs.");
+        penalties.numbersByKey(
+            "codes", rubric.byCode, 0, 10'000,
+            "Points for each diagnostic of a code, in place of warning's, or for "
+            "each finding of a code, beside what it costs.");
     });
 }
 

@@ -59,7 +59,7 @@ struct Rubric {
     std::vector<Definition> definitions;
     std::vector<Requirement> requirements;
     std::vector<ManualCriterion> manual;
-    std::vector<Criterion> criteria;  ///< of the comparison with a reference
+    std::vector<Criterion> criteria;       ///< of the comparison with a reference
     double perWarning = 0.0;               ///< points
     std::map<std::string, double> byCode;  ///< points for each diagnostic or finding of that code
     double mostPenalty = 10.0;             ///< points

@@ -96,9 +96,8 @@ void RubricReader::requireKnown(bool ok, const std::string& key, const std::stri
 
 void RubricReader::failWord(const std::string& path, const std::string& value,
                             const std::vector<std::string_view>& words) const {
-    fail<"rubric.range/word">(
-        path, "value"_arg = value, "known"_arg = uncut(joined(words, ", ")),
-        "suggestion"_arg = didYouMean(value, {words.begin(), words.end()}));
+    fail<"rubric.range/word">(path, "value"_arg = value, "known"_arg = uncut(joined(words, ", ")),
+                              "suggestion"_arg = didYouMean(value, {words.begin(), words.end()}));
 }
 
 std::size_t RubricReader::place(const std::string& key,
@@ -158,9 +157,8 @@ const json& RubricReader::listAt(const std::string& key, std::size_t fewest,
 void RubricReader::end() const {
     for (const auto& [key, value] : value_.items())
         if (known_.count(key) == 0)
-            fail<"rubric.key">(
-                at(key), "key"_arg = key, "known"_arg = uncut(joined(known_, ", ")),
-                "suggestion"_arg = didYouMean(key, {known_.begin(), known_.end()}));
+            fail<"rubric.key">(at(key), "key"_arg = key, "known"_arg = uncut(joined(known_, ", ")),
+                               "suggestion"_arg = didYouMean(key, {known_.begin(), known_.end()}));
 }
 
 void RubricSchema::text(const std::string& key, const std::string&, const char* about) {
@@ -174,8 +172,8 @@ void RubricSchema::requiredText(const std::string& key, const std::string&, cons
 
 void RubricSchema::someOf(const std::string& key, const std::vector<std::string>&,
                           const std::vector<std::string_view>& words, const char* about) {
-    ordered_json rule = listRule({{"type", {"array", "null"}}}, 1, words.size(), about,
-                                 {{"enum", words}});
+    ordered_json rule =
+        listRule({{"type", {"array", "null"}}}, 1, words.size(), about, {{"enum", words}});
     rule["uniqueItems"] = true;
     add(key, std::move(rule));
 }

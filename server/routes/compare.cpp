@@ -10,6 +10,7 @@
 #include "server/routes/answers.h"
 #include "server/routes/subject.h"
 #include "worker/tasks/compare.h"
+#include "worker/tasks/mesh_check.h"
 
 namespace farol::server {
 namespace {
@@ -36,11 +37,48 @@ worker::CompareTask::Request readComparison(std::vector<Part> parts) {
     return job;
 }
 
+/// The parts of a check of meshes: `first`, and without a shape `second`, which is expected.
+worker::MeshCheckTask::Request readMeshes(std::vector<Part> parts, const std::string& shape) {
+    worker::MeshCheckTask::Request job;
+    job.shape = shape;
+    for (Part& part : parts) {
+        const std::string name = part.name;
+        const bool isFirst = name == "first";
+        if (!isFirst && (name != "second" || !shape.empty()))
+            throw Error(
+                message<"http.multipart/unknown">(
+                    "name"_arg = name, "known"_arg = shape.empty() ? "first and second" : "first"),
+                {}, shown(name));
+        std::string& bytes = isFirst ? job.bytes : job.expectedBytes;
+        if (!bytes.empty() || part.content.empty())
+            throw Error(bytes.empty() ? message<"http.multipart/empty">("name"_arg = name)
+                                      : message<"http.multipart/repeated">("name"_arg = name),
+                        {}, name);
+        bytes = std::move(part.content);
+        std::string& fileName = isFirst ? job.name : job.expectedName;
+        fileName = std::string(baseName(part.fileName));
+        if (fileName.empty()) fileName = "mesh.3d";
+    }
+    for (const auto& [name, isThere] : {std::pair{"first", !job.bytes.empty()},
+                                        {"second", !shape.empty() || !job.expectedBytes.empty()}})
+        if (!isThere) throw Error(message<"http.multipart/missing">("name"_arg = name), {}, name);
+    return job;
+}
+
+http::Response compareMeshes(Context& context, const Call& call, const std::string& shape) {
+    const auto done = context.backend.run<worker::MeshCheckTask>(
+        readMeshes(readParts(call.request, call.body, context.options.maxBodyBytes), shape));
+    return freshJson(parseJson(done.result, worker::kMeshCheckJson));
+}
+
 }  // namespace
 
 http::Response postCompare(Context& context, const Call& call) {
-    const Parameters wanted =
-        readParameters(call.request.query, {true, true, {"crop", "mask", "pictures"}, {}});
+    const Parameters wanted = readParameters(
+        call.request.query, {true, true, {"crop", "mask", "pictures", "mesh", "shape"}, {}});
+    const bool isMesh = wholeNumber("mesh", wanted.ownValue("mesh", "0"), 0, 1) == 1;
+    if (const std::string shape = wanted.ownValue("shape"); isMesh || !shape.empty())
+        return compareMeshes(context, call, shape);
     const std::string crop = wanted.ownValue("crop"), mask = wanted.ownValue("mask");
     if (!crop.empty() && crop != "auto") grade::readRectangle(crop, "crop");
     if (!mask.empty() && mask != "axes") grade::readRectangle(mask, "mask");

@@ -8,6 +8,7 @@
 #include "worker/tasks/grade.h"
 #include "worker/tasks/inspect.h"
 #include "worker/tasks/mesh.h"
+#include "worker/tasks/mesh_check.h"
 #include "worker/tasks/notice.h"
 #include "worker/tasks/render.h"
 #include "worker/tasks/turntable.h"
@@ -33,11 +34,11 @@ constexpr TaskEntry entryOf() {
 }  // namespace
 
 std::span<const TaskEntry> tasks() {
-    static constexpr TaskEntry kTasks[] = {entryOf<CheckTask>(),     entryOf<CompareTask>(),
-                                           entryOf<GradeTask>(),     entryOf<InspectTask>(),
-                                           entryOf<MeshTask>(),      entryOf<NoticeTask>(),
-                                           entryOf<RenderTask>(),    entryOf<ReferenceTask>(),
-                                           entryOf<TurntableTask>(), entryOf<UnpackTask>()};
+    static constexpr TaskEntry kTasks[] = {
+        entryOf<CheckTask>(),     entryOf<CompareTask>(), entryOf<GradeTask>(),
+        entryOf<InspectTask>(),   entryOf<MeshTask>(),    entryOf<MeshCheckTask>(),
+        entryOf<NoticeTask>(),    entryOf<RenderTask>(),  entryOf<ReferenceTask>(),
+        entryOf<TurntableTask>(), entryOf<UnpackTask>()};
     return kTasks;
 }
 

@@ -22,7 +22,8 @@ using namespace farol::generator;
 namespace {
 
 scene::BundleAssets files() {
-    return scene::BundleAssets(scene::BundleAssets::Files{{"vase.txt", "0.2 0 0\n0.8 0.2 0\n0.5 0.7 0\n0.6 1 0\n"}});
+    return scene::BundleAssets(
+        scene::BundleAssets::Files{{"vase.txt", "0.2 0 0\n0.8 0.2 0\n0.5 0.7 0\n0.6 1 0\n"}});
 }
 
 /// A call of the shape with sizes that are usual and few divisions.
@@ -107,7 +108,8 @@ std::optional<Planted> moved(const Mesh& mesh) {
     for (std::size_t i = 0; i < arrays.positions.size(); ++i)
         if (glm::length(arrays.positions[i] - at) < 1e-6F) {
             if (line == 0) line = static_cast<int>(i) + 1;
-            arrays.positions[i] += static_cast<float>(0.03 * sizeOf(arrays)) * glm::vec3(0.6F, 0.7F, 0.4F);
+            arrays.positions[i] +=
+                static_cast<float>(0.03 * sizeOf(arrays)) * glm::vec3(0.6F, 0.7F, 0.4F);
         }
     return Planted{arrays, line};
 }
@@ -241,8 +243,9 @@ std::optional<Planted> withoutCap(const Mesh& mesh) {
     MeshArrays arrays = mesh.arrays();
     const auto faceOf = [&](std::size_t t) {
         const glm::dvec3 a(arrays.positions[arrays.indices[3 * t]]);
-        const glm::dvec3 n = glm::cross(glm::dvec3(arrays.positions[arrays.indices[3 * t + 1]]) - a,
-                                        glm::dvec3(arrays.positions[arrays.indices[3 * t + 2]]) - a);
+        const glm::dvec3 n =
+            glm::cross(glm::dvec3(arrays.positions[arrays.indices[3 * t + 1]]) - a,
+                       glm::dvec3(arrays.positions[arrays.indices[3 * t + 2]]) - a);
         const double length = glm::length(n);
         return length > 1e-9 ? glm::dvec4(n / length, glm::dot(n / length, a)) : glm::dvec4(0.0);
     };

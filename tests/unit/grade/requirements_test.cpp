@@ -142,10 +142,10 @@ TEST_CASE("scenes that meet the requirements by other means have all points") {
 }
 
 TEST_CASE("counts give points by their share, and too many cost") {
-    const std::string boxes = box(
-        "<group><models><model file=\"box_1_1.3d\"/></models></group>"
-        "<group><transform><translate x=\"2\" y=\"0\" z=\"0\"/></transform><models>"
-        "<model file=\"box_1_1.3d\"/></models></group>");
+    const std::string boxes =
+        box("<group><models><model file=\"box_1_1.3d\"/></models></group>"
+            "<group><transform><translate x=\"2\" y=\"0\" z=\"0\"/></transform><models>"
+            "<model file=\"box_1_1.3d\"/></models></group>");
     const auto points = [&](const std::string& more) {
         const grade::Grade grade = gradeOf(
             subjectOf(boxes),
@@ -171,15 +171,15 @@ TEST_CASE("what an image without light, texture or normals shows decides whether
     };
     const std::string plain = "<model file=\"sphere_1_16_12.3d\"/>";
     const std::string glowing =
-        "<model file=\"sphere_1_16_12.3d\"><color><diffuse R=\"0\" G=\"0\" B=\"0\"/><ambient R=\"0\" "
+        "<model file=\"sphere_1_16_12.3d\"><color><diffuse R=\"0\" G=\"0\" B=\"0\"/><ambient "
+        "R=\"0\" "
         "G=\"0\" B=\"0\"/><emissive R=\"200\" G=\"0\" B=\"0\"/></color></model>";
     CHECK(met(plain, "light"));
     CHECK(met(plain, "normals"));
     CHECK_FALSE(met(plain, "texture"));
     CHECK_FALSE(met(glowing, "light"));
     CHECK_FALSE(met(glowing, "normals"));
-    CHECK(met("<model file=\"sphere_1_16_12.3d\" texture=\"chess:4x4\"/>",
-              "texture"));
+    CHECK(met("<model file=\"sphere_1_16_12.3d\" texture=\"chess:4x4\"/>", "texture"));
 }
 
 TEST_CASE("an object inside another solid is buried; one under a sky is not") {
@@ -190,11 +190,13 @@ TEST_CASE("an object inside another solid is buried; one under a sky is not") {
     };
     const std::string inner = "<group><models><model file=\"box_1_1.3d\"/></models></group>";
     CHECK(count(inner) == 0);
-    CHECK(count(inner + "<group><models><model file=\"sphere_2_12_12.3d\"/></models></group>") == 1);
+    CHECK(count(inner + "<group><models><model file=\"sphere_2_12_12.3d\"/></models></group>") ==
+          1);
     // It looks out of the front.
-    CHECK(count("<group><transform><translate x=\"1.8\" y=\"0\" z=\"0\"/></transform><models><model "
-                "file=\"box_1_1.3d\"/></models></group><group><models><model "
-                "file=\"sphere_2_12_12.3d\"/></models></group>") == 0);
+    CHECK(
+        count("<group><transform><translate x=\"1.8\" y=\"0\" z=\"0\"/></transform><models><model "
+              "file=\"box_1_1.3d\"/></models></group><group><models><model "
+              "file=\"sphere_2_12_12.3d\"/></models></group>") == 0);
     CHECK(count(inner + "<group><models><model file=\"sphere_50_12_12.3d\"/></models></group>") ==
           0);
 }
@@ -215,8 +217,8 @@ TEST_CASE("mesh files are checked against a shape, with the vertex's line") {
 
 TEST_CASE("a wrong rubric of requirements is refused with place and fix") {
     const std::string head = "{\n  \"requirements\": [\n    {\"id\": \"a\", \"text\": \"t\",\n";
-    CHECK(faultOf(head + "     \"cout\": 3, \"select\": {}}]}")
-              .find("4:6 /requirements/0/cout") == 0);
+    CHECK(faultOf(head + "     \"cout\": 3, \"select\": {}}]}").find("4:6 /requirements/0/cout") ==
+          0);
     CHECK(faultOf(head + "     \"cout\": 3, \"select\": {}}]}").find("did you mean \"count\"?") !=
           std::string::npos);
     CHECK(faultOf(head + "     \"select\": {\"shape\": [\"spere\"]}}]}")
@@ -238,8 +240,7 @@ TEST_CASE("a wrong rubric of requirements is refused with place and fix") {
 }
 
 TEST_CASE("requirements and a reference share the points") {
-    const std::string xml = box(
-        "<group><models><model file=\"box_1_1.3d\"/></models></group>");
+    const std::string xml = box("<group><models><model file=\"box_1_1.3d\"/></models></group>");
     const grade::Rubric rubric = grade::readRubric(
         "{\"points\": 20, \"requirements\": [{\"id\": \"a\", \"text\": \"t\", \"points\": 6, "
         "\"select\": {\"shape\": [\"box\"]}}, {\"id\": \"b\", \"text\": \"t\", \"points\": 4, "
@@ -251,9 +252,9 @@ TEST_CASE("requirements and a reference share the points") {
     const grade::Grade same = grader.grade(subjectOf(xml), subjectOf(xml), rubric);
     CHECK(same.points == 16.0);
     // A penalty by the code of a finding, beside what the cause costs.
-    const std::string moved = box(
-        "<group><transform><translate x=\"1\" y=\"0\" z=\"0\"/></transform><models><model "
-        "file=\"box_1_1.3d\"/></models></group>");
+    const std::string moved =
+        box("<group><transform><translate x=\"1\" y=\"0\" z=\"0\"/></transform><models><model "
+            "file=\"box_1_1.3d\"/></models></group>");
     const grade::Grade other = grader.grade(subjectOf(moved), subjectOf(xml), rubric);
     REQUIRE(other.causes.size() == 1);
     CHECK(other.causes.front().code == "transform.missing");

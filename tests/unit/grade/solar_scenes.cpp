@@ -106,12 +106,12 @@ std::string planets() {
 
 std::string comet(const std::string& modelElement) {
     std::string points;
-    for (const char* at : {"x=\"20\" y=\"4\" z=\"0\"", "x=\"10\" y=\"5\" z=\"-18\"",
-                           "x=\"-10\" y=\"4\" z=\"-18\"", "x=\"-20\" y=\"3\" z=\"0\"",
-                           "x=\"-10\" y=\"2\" z=\"18\"", "x=\"10\" y=\"3\" z=\"18\""})
+    for (const char* at :
+         {"x=\"20\" y=\"4\" z=\"0\"", "x=\"10\" y=\"5\" z=\"-18\"", "x=\"-10\" y=\"4\" z=\"-18\"",
+          "x=\"-20\" y=\"3\" z=\"0\"", "x=\"-10\" y=\"2\" z=\"18\"", "x=\"10\" y=\"3\" z=\"18\""})
         points += "<point " + std::string(at) + "/>\n";
-    return "<group name=\"Comet\">\n<transform>\n<translate time=\"60\" align=\"true\">\n" + points +
-           "</translate><scale x=\"0.4\" y=\"0.4\" z=\"0.4\"/></transform>\n<models>\n" +
+    return "<group name=\"Comet\">\n<transform>\n<translate time=\"60\" align=\"true\">\n" +
+           points + "</translate><scale x=\"0.4\" y=\"0.4\" z=\"0.4\"/></transform>\n<models>\n" +
            modelElement + "\n</models>\n</group>\n";
 }
 const std::string kComet = comet("<model file=\"teapot.patch\"/>");
@@ -171,17 +171,14 @@ std::vector<SolarScene> solarMisses() {
     // A planet that stands still; its model's line says so.
     add("planets", replaced(all.xml, spin(yearOf(7)), ""),
         "<model file=\"sphere_1_16_12.3d\"><texture file=\"p7.png\"/>");
-    add("textures", replaced(all.xml, "p5.png", "p2.png"),
-        "<group name=\"Planet 5\">\n");
+    add("textures", replaced(all.xml, "p5.png", "p2.png"), "<group name=\"Planet 5\">\n");
     out.back().line += 3;
     add("years", replaced(all.xml, spin(yearOf(6)), spin(3.0)), "<texture file=\"p6.png\"/>");
     // The moon stands beside the planets.
     add("moon",
-        replaced(replaced(all.xml, kMoon, ""), kComet,
-                 replaced(kMoon, spin(5.0), "") + kComet),
+        replaced(replaced(all.xml, kMoon, ""), kComet, replaced(kMoon, spin(5.0), "") + kComet),
         "<texture file=\"moon.png\"/>");
-    add("comet", replaced(all.xml, "align=\"true\"", "align=\"false\""),
-        "<translate time=\"60\"");
+    add("comet", replaced(all.xml, "align=\"true\"", "align=\"false\""), "<translate time=\"60\"");
     add("light", replaced(all.xml, "posx=\"0\" posy=\"0\"", "posx=\"0\" posy=\"30\""), "<light ");
     std::string far = all.xml;
     for (const int i : {6, 7, 8}) {
@@ -197,13 +194,13 @@ std::vector<SolarScene> otherSolarScenes() {
     std::vector<SolarScene> out;
     const std::string base = solarScene().xml;
     // 1. Everything below the sun's group, which is scaled inside.
-    out.push_back(otherwise(
-        "below the sun", kHead + kLights + "<group name=\"System\">\n" + kSun + planets() + kComet +
-                             "</group>\n</world>\n"));
+    out.push_back(otherwise("below the sun", kHead + kLights + "<group name=\"System\">\n" + kSun +
+                                                 planets() + kComet + "</group>\n</world>\n"));
     // 2. Orbits are curves.
     std::string curves = base;
     for (int i = 1; i <= 8; ++i)
-        curves = replaced(curves, spin(yearOf(i)) + away(orbitOf(i)), circle(orbitOf(i), yearOf(i)));
+        curves =
+            replaced(curves, spin(yearOf(i)) + away(orbitOf(i)), circle(orbitOf(i), yearOf(i)));
     out.push_back(otherwise("orbits by curves", curves));
     // 3. Meshes of a student's own generator, with names that say nothing.
     SolarScene own = otherwise("own mesh files", base);
@@ -224,10 +221,10 @@ std::vector<SolarScene> otherSolarScenes() {
     out.push_back(std::move(obj));
     // 5. The moon and its planet side by side in a group that carries both.
     const std::string third = planet(3);
-    const std::string carried =
-        "<group name=\"Planet 3\">\n<transform>" + spin(yearOf(3)) + away(orbitOf(3)) +
-        "</transform>\n<group>\n<transform>" + spin(2.0) + "</transform>\n" + model("p3.png") +
-        "</group>\n" + kMoon + "</group>\n";
+    const std::string carried = "<group name=\"Planet 3\">\n<transform>" + spin(yearOf(3)) +
+                                away(orbitOf(3)) + "</transform>\n<group>\n<transform>" +
+                                spin(2.0) + "</transform>\n" + model("p3.png") + "</group>\n" +
+                                kMoon + "</group>\n";
     out.push_back(otherwise("moon beside its planet", replaced(base, third, carried)));
     // 6. The moon's group goes to the planet's place by itself, below the turning group.
     const std::string turning =
@@ -252,12 +249,13 @@ std::vector<SolarScene> otherSolarScenes() {
                  "</group>\n" + (i == 5 ? kMoon : "") + "</group>\n</group>\n";
     out.push_back(otherwise("tilted, the other way round", order + kSun + "</world>\n"));
     // 9. The 2017 dialect: transforms in groups, floats for colours, a light in the sun's group.
-    std::string old = "<scene>\n<camera><position x=\"0\" y=\"40\" z=\"60\"/>"
-                      "<lookAt x=\"0\" y=\"0\" z=\"0\"/></camera>\n<group>\n<lights>"
-                      "<light type=\"POINT\" posX=\"0\" posY=\"0\" posZ=\"0\"/></lights>\n<group>\n"
-                      "<scale X=\"4\" Y=\"4\" Z=\"4\"/>\n<models>"
-                      "<model file=\"sphere_1_16_12.3d\" texture=\"sun.png\" diffR=\"0\" diffG=\"0\" "
-                      "diffB=\"0\" emisR=\"1\" emisG=\"1\" emisB=\"0.9\"/></models>\n</group>\n";
+    std::string old =
+        "<scene>\n<camera><position x=\"0\" y=\"40\" z=\"60\"/>"
+        "<lookAt x=\"0\" y=\"0\" z=\"0\"/></camera>\n<group>\n<lights>"
+        "<light type=\"POINT\" posX=\"0\" posY=\"0\" posZ=\"0\"/></lights>\n<group>\n"
+        "<scale X=\"4\" Y=\"4\" Z=\"4\"/>\n<models>"
+        "<model file=\"sphere_1_16_12.3d\" texture=\"sun.png\" diffR=\"0\" diffG=\"0\" "
+        "diffB=\"0\" emisR=\"1\" emisG=\"1\" emisB=\"0.9\"/></models>\n</group>\n";
     for (int i = 1; i <= 8; ++i)
         old += "<group>\n<rotate time=\"" + number(yearOf(i)) +
                "\" axisX=\"0\" axisY=\"1\" axisZ=\"0\"/>\n<translate X=\"" + number(orbitOf(i)) +
@@ -272,12 +270,13 @@ std::vector<SolarScene> otherSolarScenes() {
     for (int k = 0; k < 7; ++k)
         old += "<point X=\"" + number(18 * std::cos(0.9 * k)) + "\" Y=\"4\" Z=\"" +
                number(18 * std::sin(0.9 * k)) + "\"/>";
-    old += "</translate>\n<scale X=\"0.4\" Y=\"0.4\" Z=\"0.4\"/>\n<models>"
-           "<model file=\"teapot.patch\"/></models>\n</group>\n</group>\n</scene>\n";
+    old +=
+        "</translate>\n<scale X=\"0.4\" Y=\"0.4\" Z=\"0.4\"/>\n<models>"
+        "<model file=\"teapot.patch\"/></models>\n</group>\n</group>\n</scene>\n";
     out.push_back(otherwise("2017 dialect", old));
     // 10. Commands in place of files, named colours, divisions left open.
-    std::string commands = replacedAll(base, "<model file=\"sphere_1_16_12.3d\">",
-                                       "<model command=\"sphere 1\">");
+    std::string commands =
+        replacedAll(base, "<model file=\"sphere_1_16_12.3d\">", "<model command=\"sphere 1\">");
     commands = replaced(commands, "<model file=\"teapot.patch\"/>",
                         "<model command=\"patch teapot.patch\"/>");
     out.push_back(otherwise("2020 commands", commands));

@@ -95,8 +95,13 @@ struct Requirements::State {
         return thingAt(inventory.nameOf(near.object), near.fault.where, near.fault.reason.text);
     }
 
-    /// What no object of the right kind fails is not shown beside one that does.
-    std::vector<RequiredThing> missesOf(const std::vector<NearMiss>& near) const {
+    /// Objects of the wrong kind are not shown beside one of the right kind; those that meet an
+    /// earlier requirement come last, since they are meant for that.
+    std::vector<RequiredThing> missesOf(std::vector<NearMiss> near) const {
+        std::stable_sort(near.begin(), near.end(), [&](const NearMiss& a, const NearMiss& b) {
+            return std::pair(!a.isOfKind, used.count(a.object)) <
+                   std::pair(!b.isOfKind, used.count(b.object));
+        });
         std::vector<RequiredThing> out;
         const bool hasKind = !near.empty() && near.front().isOfKind;
         for (const NearMiss& one : near)
@@ -180,6 +185,7 @@ struct Requirements::State {
         selector.define(rule.id, selection.matches);
         Counted out;
         out.misses = missesOf(selection.near);
+        used.insert(selection.matches.begin(), selection.matches.end());
         keepDistinct(rule.distinct, selection.matches, out.misses);
         if (rule.order) keepOrdered(*rule.order, *rule.select, selection.matches, out.misses);
         out.found = static_cast<int>(selection.matches.size());
@@ -258,6 +264,7 @@ struct Requirements::State {
     SeenFacts seen;
     Solids solids;
     ObjectSelector selector;
+    std::set<std::size_t> used;  ///< objects that meet a requirement
 };
 
 RequirementGrade gradeOf(const Requirement& rule, int found, int base) {

@@ -171,7 +171,7 @@ std::vector<SolarScene> solarMisses() {
     // A planet that stands still; its model's line says so.
     add("planets", replaced(all.xml, spin(yearOf(7)), ""),
         "<model file=\"sphere_1_16_12.3d\"><texture file=\"p7.png\"/>");
-    add("textures", replaced(all.xml, "p5.png", "p2.png"), "<group name=\"Planet 5\">\n");
+    add("images", replaced(all.xml, "p5.png", "p2.png"), "<group name=\"Planet 5\">\n");
     out.back().line += 3;
     add("years", replaced(all.xml, spin(yearOf(6)), spin(3.0)), "<texture file=\"p6.png\"/>");
     // The moon stands beside the planets.

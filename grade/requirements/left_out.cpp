@@ -10,7 +10,7 @@ namespace {
 
 constexpr const char* kFolder = ".one-normal/";
 
-/// The files of a scene, and meshes that were made of its own.
+/// The files of a scene, and further meshes.
 class MoreAssets final : public scene::Assets {
   public:
     MoreAssets(std::shared_ptr<const scene::Assets> own, scene::BundleAssets::Files more)

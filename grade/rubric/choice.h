@@ -14,7 +14,7 @@ struct Wanted {
     std::string task;                 ///< its name; empty where there is one task
     std::vector<std::string> others;  ///< names of the other tasks
     std::vector<std::string> files;   ///< base names that the reference names, lower case
-    bool isScene = true;              ///< false: files without a scene are taken too
+    bool isScene = true;              ///< false: files without a scene will do
 };
 
 /// Returns the base names of the files that a document names in quotes, in lower case, each once:

@@ -343,7 +343,7 @@ TEST_CASE("every shape with each planted fault: the fault is found, with its lin
             for (const Diagnostic& one : check.findings)
                 hasLine = hasLine || (one.code == fault.code && one.where.line == planted->line);
             CHECK(hasLine);
-            // Nothing else is said to be wrong.
+            // Nothing else is reported.
             CHECK(codesOf(check) == fault.code);
             table += codesOf(check) == fault.code ? " found |" : " " + codesOf(check) + " |";
         }

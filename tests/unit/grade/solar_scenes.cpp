@@ -239,7 +239,7 @@ std::vector<SolarScene> otherSolarScenes() {
         names = replaced(names, "<group name=\"Planet " + std::to_string(i) + "\">",
                          i % 2 == 0 ? "<group>" : "<group name=\"Planeta\">");
     out.push_back(otherwise("other names", names));
-    // 8. Planets before the sun, tilted orbits, spins of their own, years the other way round.
+    // 8. Planets before the sun, tilted orbits, spins, years the other way round.
     std::string order = kHead + kLights + kComet;
     for (int i = 8; i >= 1; --i)
         order += "<group>\n<transform><rotate angle=\"" + number(3.0 * i) +

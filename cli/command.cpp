@@ -47,6 +47,22 @@ void addGlSource(CLI::App& command, render::GlSource& source) {
         ->default_str("auto");
 }
 
+void addLanguage(CLI::App& command, Report& report) {
+    const auto take = [&report](const std::string& word) {
+        report.setLanguage(*kLanguageWords.find(word));
+    };
+    const auto check = [](const std::string& word) {
+        return kLanguageWords.find(word)
+                   ? std::string()
+                   : word + " is none of " + joined(kLanguageWords.all(), ", ");
+    };
+    command
+        .add_option_function<std::string>(
+            "--lang", take, "language of diagnostics, findings and reports; default en")
+        ->check(check)
+        ->type_name(joined(kLanguageWords.all(), "|"));
+}
+
 void takesNumber(CLI::Option* option, double min, double max) {
     const auto text = [](double value) {
         std::ostringstream out;

@@ -55,6 +55,9 @@ void addWorker(CLI::App& root, Action& action);
 /// Returns the exit code of `work`; an exception becomes an exit code and an entry of the report.
 int runGuarded(const std::function<int()>& work, Report& report);
 
+/// Adds --lang: the language of the report.
+void addLanguage(CLI::App& command, Report& report);
+
 /// Restricts the option to finite numbers from min to max (CLI::Range lets NaN pass), and adds the
 /// range and the default to its help.
 void takesNumber(CLI::Option* option, double min, double max);

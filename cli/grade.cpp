@@ -182,6 +182,7 @@ int run(const Flags& flags, Report& report) {
     render::PictureOptions picture;
     render::applyOption(picture, "missing", flags.missing);
     options.missing = picture.missing;
+    options.language = report.language();
     std::vector<GradeTask> tasks = readTasks(flags, options);
     std::vector<Submission> submissions = flags.isSingle
                                               ? std::vector{oneSubmission(flags.submissions)}

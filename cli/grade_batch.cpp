@@ -128,7 +128,8 @@ Batch::Batch(worker::Backend& backend, std::vector<Submission> submissions,
 
 std::string Batch::keyOf(const grade::Subject& subject, const Task& task) const {
     return contentDigest(digestOf(subject) + task.wanted.task + task.digest + task.rubric.json +
-                         std::string(render::kMissingWords[options_.missing]) + backend_.version());
+                         std::string(render::kMissingWords[options_.missing]) +
+                         std::string(kLanguageWords[options_.language]) + backend_.version());
 }
 
 BatchTimes Batch::run() {
@@ -182,6 +183,7 @@ void Batch::gradeOne(std::size_t submission, std::size_t task) {
         job.submission.job.options.missing = options_.missing;
         job.reference = tasks_[task]->reference;
         job.rubric = tasks_[task]->rubric;
+        job.language = options_.language;
         const std::string file =
             options_.resultsDir + "/" + keyOf(job.submission, *tasks_[task]) + ".grade";
         if (grade::TaskGrade kept; isWholeInto(kept, file)) {
@@ -201,12 +203,12 @@ void Batch::gradeOne(std::size_t submission, std::size_t task) {
         times_.compareMs += reply.compareMs;
     } catch (const Error& error) {
         entry.code = error.code();
-        entry.failure = toUtf8(error.what());
+        entry.failure = toUtf8(textIn(options_.language, error.primary()));
     } catch (const worker::Busy& busy) {
         entry.code = busy.code();
-        entry.failure = busy.code() == "busy.deadline"
-                            ? "The submission took too long and was ended."
-                            : "The submission ended the process that graded it.";
+        entry.failure = textIn(options_.language, busy.code() == "busy.deadline"
+                                                      ? message<"part.failure/late">()
+                                                      : message<"part.failure/ended">());
     } catch (const OutputError&) {
         // The run cannot go on, and another thread may not throw.
         const std::lock_guard lock(mutex_);
@@ -234,7 +236,7 @@ grade::TaskResult Batch::loadTask(std::size_t submission, std::size_t task) cons
         out.result = std::move(kept);
     } else {
         out.result = grade::TaskFailure{"grade.lost",
-                                        "result file is gone or damaged; run the command again"};
+                                        textIn(options_.language, message<"part.failure/lost">())};
     }
     return out;
 }
@@ -280,6 +282,7 @@ grade::ClassResult Batch::result() const {
     for (const GradeTask& one : names_) all.tasks.push_back(one.name);
     for (const auto& task : tasks_) all.references.push_back(task->pictures);
     all.rubric = tasks_.front()->rubric.json;
+    all.language = options_.language;
     if (!options_.pseudonyms) all.groups = options_.groups;
     return all;
 }

@@ -32,6 +32,7 @@ struct BatchOptions {
     std::optional<Pseudonyms> pseudonyms;
     std::string resultsDir;  ///< where each result is kept, so that a run can go on
     int jobs = 1;
+    Language language = Language::en;  ///< of the reports
     /// Effect of a submission's missing or damaged file; references must be complete.
     render::Missing missing = render::Missing::placeholder;
     std::function<void(std::size_t done, std::size_t all)> progress;

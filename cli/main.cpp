@@ -76,6 +76,8 @@ int main(int argc, char** argv) {
     addCompletion(app, action);
     addManual(app, action);
     addWorker(app, action);
+    for (const char* name : {"validate", "render", "generate", "compare", "grade"})
+        addLanguage(*app.get_subcommand(name), report);
     for (CLI::App* command : app.get_subcommands({}))
         if (command->get_option_no_throw("--json") == nullptr)  // of schema it is a form
             command->add_flag_callback(
@@ -86,8 +88,12 @@ int main(int argc, char** argv) {
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) return app.exit(error);  // --help and --version
         // A flag before the fault may not have been read yet.
-        for (int i = 1; i < argc; ++i)
+        for (int i = 1; i < argc; ++i) {
             if (std::string_view(argv[i]) == "--json") report.useJson();
+            if (std::string_view(argv[i]) != "--lang" || i + 1 == argc) continue;
+            if (const auto language = kLanguageWords.find(argv[i + 1]))
+                report.setLanguage(*language);
+        }
         report.fail(usageFault(app, error, argc, argv));
         report.finish(kUsage);
         return kUsage;

@@ -8,6 +8,7 @@
 #include "generator/compare/messages.h"
 #include "generator/messages.h"
 #include "grade/messages.h"
+#include "grade/report/messages.h"
 #include "grade/requirements/messages.h"
 #include "grade/structure/messages.h"
 #include "image/messages.h"
@@ -31,6 +32,7 @@ inline std::vector<std::span<const MessageRow>> messageTables() {
             render::kRenderMessages,
             grade::kGradeMessages,
             grade::kCauseMessages,
+            grade::kReportMessages,
             grade::kRequirementMessages,
             worker::kWorkerMessages,
             server::kServerMessages,

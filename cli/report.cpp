@@ -8,14 +8,15 @@
 #include "server/request/problem.h"
 
 namespace farol::cli {
-std::string formatLine(const Diagnostic& diagnostic) {
+std::string formatLine(const Diagnostic& diagnostic, Language language) {
     const Location& where = diagnostic.where;
     std::string line = where.file;
     if (where.line > 0) {
         line += ":" + std::to_string(where.line);
         if (where.column > 0) line += ":" + std::to_string(where.column);
     }
-    line += ": " + std::string(kSeverityWords[diagnostic.severity]) + ": " + diagnostic.message;
+    line += ": " + std::string(kSeverityWords[diagnostic.severity]) + ": " +
+            textIn(language, diagnostic);
     // The note about hidden findings has their number in its text.
     if (diagnostic.count > 1 && diagnostic.code != "limit.diagnostics")
         line += " (" + std::to_string(diagnostic.count) + " times)";
@@ -38,7 +39,7 @@ void Report::add(const Diagnostics& diagnostics) {
     limitFindings(found);
     for (const Diagnostic& finding : found) {
         if (printed_ < kMaxFindings) {
-            std::cerr << formatLine(finding) << "\n";
+            std::cerr << formatLine(finding, language_) << "\n";
             ++printed_;
         } else {
             hidden_ += finding.count;
@@ -67,11 +68,12 @@ void Report::finish(int status) {
     }
     if (!json_) {
         if (hidden_ > 0)
-            std::cerr << formatLine(hiddenNote(std::exchange(hidden_, 0), input_)) << std::endl;
+            std::cerr << formatLine(hiddenNote(std::exchange(hidden_, 0), input_), language_)
+                      << std::endl;
         return;
     }
     body_["status"] = status;
-    server::setDiagnostics(body_, "diagnostics", found_);
+    server::setDiagnostics(body_, "diagnostics", found_, language_);
     std::cout << server::dump(body_, 2) << std::endl;
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/language.h"
 
 namespace farol::cli {
 
@@ -25,6 +26,10 @@ class Report {
     /// Without it, diagnostics of severity info are not shown as lines; JSON holds all.
     void setVerbose(bool verbose) { verbose_ = verbose; }
 
+    /// Texts are in this language from then on.
+    void setLanguage(Language language) { language_ = language; }
+    Language language() const { return language_; }
+
     /// Sets the file of diagnostics that name none.
     void setInput(const std::string& name) { input_ = name; }
     void add(const Diagnostics& diagnostics);
@@ -43,6 +48,7 @@ class Report {
     bool json_ = false;
     void (*write_)(std::ostream&, const Diagnostics&) = nullptr;
     bool verbose_ = false;
+    Language language_ = Language::en;
     std::string input_ = "farol";
     std::string path_;  ///< for a writer
     nlohmann::json body_ = nlohmann::json::object();
@@ -53,6 +59,6 @@ class Report {
 
 /// `file:line:column: severity: message [code]`; the numbers only where they are known. Control
 /// characters become '?', so that a file cannot write to the terminal.
-std::string formatLine(const Diagnostic& diagnostic);
+std::string formatLine(const Diagnostic& diagnostic, Language language = Language::en);
 
 }  // namespace farol::cli

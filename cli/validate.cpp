@@ -23,8 +23,11 @@ int inspect(const render::Job& job, Report& report, bool isText) {
     report.add(facts.diagnostics);
     report.merge(server::toJson(facts));
     if (!report.json() && isText)
-        std::cout << job.name << ": valid; " << facts.models << " models, " << facts.triangles
-                  << " triangles, " << facts.lights << " lights, " << facts.textures << " textures"
+        std::cout << textIn(report.language(),
+                            message<"part.scene-valid">(
+                                "name"_arg = uncut(job.name), "models"_arg = facts.models,
+                                "triangles"_arg = facts.triangles, "lights"_arg = facts.lights,
+                                "textures"_arg = facts.textures))
                   << std::endl;
     return kDone;
 }

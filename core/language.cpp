@@ -77,6 +77,10 @@ std::string textIn(Language language, const Diagnostic& finding) {
     return textIn(language, finding.id, finding.arguments, finding.message);
 }
 
+Message messageOf(const Diagnostic& finding) {
+    return {finding.id, finding.message, finding.arguments};
+}
+
 Diagnostics translated(Language language, Diagnostics findings) {
     for (Diagnostic& finding : findings) finding.message = textIn(language, finding);
     return findings;

@@ -25,6 +25,9 @@ std::optional<std::string_view> templateOf(Language language, std::string_view i
 std::string textIn(Language language, const Message& message);
 std::string textIn(Language language, const Diagnostic& finding);
 
+/// The finding's message without its place.
+Message messageOf(const Diagnostic& finding);
+
 /// Returns the diagnostics with their texts in the language; all else stays.
 Diagnostics translated(Language language, Diagnostics findings);
 

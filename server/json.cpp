@@ -79,7 +79,7 @@ json toJson(const render::Stats& stats) {
             {"lightsSkipped", stats.lightsSkipped}};
 }
 
-json toJson(const render::SceneReport& report) {
+json toJson(const render::SceneReport& report, Language language) {
     json out = {{"title", report.title},
                 {"description", report.description},
                 {"width", report.width},
@@ -92,7 +92,7 @@ json toJson(const render::SceneReport& report) {
                   {"textures", report.textures},
                   {"triangles", report.triangles},
                   {"textureBytes", report.textureBytes}}}};
-    setDiagnostics(out, "diagnostics", report.diagnostics);
+    setDiagnostics(out, "diagnostics", report.diagnostics, language);
     // The time range that a client plays in a loop.
     if (report.playS) {
         out["playFrom"] = report.playS->x;
@@ -136,15 +136,15 @@ const Diagnostic& primaryOf(const Diagnostics& all) {
 }  // namespace
 
 json describe(const ServedScene& scene, const render::SceneReport& report,
-              const Diagnostics& errors, const std::string& basePath) {
-    json out = errors.empty() ? toJson(report) : json::object();
+              const Diagnostics& errors, const std::string& basePath, Language language) {
+    json out = errors.empty() ? toJson(report, language) : json::object();
     out["id"] = scene.id;
     out["valid"] = errors.empty();
     out["links"] = linksOf(scene, basePath);
     if (!errors.empty()) {
         const Diagnostic& primary = primaryOf(errors);
-        setDiagnostics(out, "diagnostics", errors);
-        out["problem"] = {{"code", primary.code}, {"message", primary.message}};
+        setDiagnostics(out, "diagnostics", errors, language);
+        out["problem"] = {{"code", primary.code}, {"message", textIn(language, primary)}};
     }
     if (out.value("title", "").empty()) {
         const std::string name = scene.id.substr(scene.id.rfind('/') + 1);

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/language.h"
 #include "render/renderer.h"
 #include "server/scenes.h"
 
@@ -12,7 +13,7 @@ nlohmann::json toJson(const scene::Camera& camera);
 nlohmann::json toJson(const render::Stats& stats);
 nlohmann::json toJson(const render::Quality& quality);
 /// Title, size, camera, counts, diagnostics.
-nlohmann::json toJson(const render::SceneReport& report);
+nlohmann::json toJson(const render::SceneReport& report, Language language = Language::en);
 /// {"models": the elements with their places, "copies": the model of each number of a layer=id
 /// picture, the first for number 1}
 nlohmann::json modelsOf(const render::SceneReport& report);
@@ -26,6 +27,6 @@ std::string diagnosticsHeader(const Diagnostics& diagnostics);
 
 /// The document of a scene, in the gallery and at its address.
 nlohmann::json describe(const ServedScene& scene, const render::SceneReport& report,
-                        const Diagnostics& errors, const std::string& basePath);
+                        const Diagnostics& errors, const std::string& basePath, Language language);
 
 }  // namespace farol::server

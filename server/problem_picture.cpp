@@ -53,6 +53,10 @@ void drawProblem(Context& context, const http::Request& request, const Problem& 
         const Diagnostics errors = errorsOf(problem);
         auto done = context.backend.run<worker::NoticeTask>(
             {noticeOf(problem, errors), shapeOf(request).picture});
+        // An image is the same in all languages: its text is English.
+        std::erase_if(response.headers, [](const auto& field) {
+            return field.first == "Content-Language" || field.first == "Vary";
+        });
         response.contentType = done.result.contentType;
         response.body = std::move(done.result.bytes);
         response.set("X-Farol-Diagnostics", diagnosticsHeader(errors));

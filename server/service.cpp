@@ -5,6 +5,7 @@
 
 #include "server/messages.h"
 #include "server/problem_picture.h"
+#include "server/request/media.h"
 #include "server/request/token.h"
 #include "server/routes/table.h"
 
@@ -75,7 +76,7 @@ http::Response Service::answer(const http::Request& request, http::Body& body) {
         response = router_.route(context_, request, counted);
     } catch (...) {
         const Problem problem = problemOfCurrent(request);
-        response = problemResponse(problem, request.id);
+        response = problemResponse(problem, request.id, languageOf(request));
         if (isAdmitted && router_.drawsProblem(request.path))
             drawProblem(context_, request, problem, response);
     }
@@ -123,7 +124,8 @@ Problem Service::problemOfCurrent(const http::Request& request) {
 }
 
 http::Response Service::refuse(const http::Request& request, int status, const Message& message) {
-    http::Response response = problemResponse(problemOf(status, message), request.id);
+    http::Response response =
+        problemResponse(problemOf(status, message), request.id, languageOf(request));
     finish(request, response);
     return response;
 }

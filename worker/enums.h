@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/error.h"
+#include "core/language.h"
 #include "image/animation.h"
 #include "image/format.h"
 #include "render/options.h"
@@ -9,6 +10,7 @@
 /// The last value of each enumeration in messages; larger values are refused (worker/wire.h).
 namespace farol {
 constexpr Severity lastOf(Severity) { return Severity::error; }
+constexpr Language lastOf(Language) { return Language::cs; }
 }  // namespace farol
 
 namespace farol::scene {

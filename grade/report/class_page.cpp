@@ -6,6 +6,7 @@
 #include "core/base64.h"
 #include "core/bounded_json.h"
 #include "core/text.h"
+#include "grade/report/messages.h"
 #include "grade/report/page_files.h"
 #include "grade/report/report.h"
 #include "grade/report/similarity.h"
@@ -36,6 +37,11 @@ std::string aboutKind(const std::string& code) {
     return code;
 }
 
+/// A word of the page, escaped.
+std::string wordIn(const ClassResult& all, const Message& message) {
+    return forMarkup(textIn(all.language, message));
+}
+
 void writeFrequencies(std::ostream& out, const ClassResult& all) {
     std::map<std::string, Frequency> byCode;
     for (std::size_t i = 0; i < all.count; ++i) {
@@ -54,9 +60,14 @@ void writeFrequencies(std::ostream& out, const ClassResult& all) {
     std::stable_sort(ranked.begin(), ranked.end(), [](const auto& a, const auto& b) {
         return a.second.students > b.second.students;
     });
-    out << "<h2>What the class got wrong most</h2>\n<table><thead><tr><th>Mistake</th>"
-           "<th>Students</th><th>Places</th><th>Points lost, mean</th><th>Example</th></tr></thead>"
-           "<tbody>\n";
+    out << "<h2>" << wordIn(all, reportMessage<"part.page/class-mistakes">())
+        << "</h2>\n<table><thead><tr>";
+    for (const Message& head :
+         {reportMessage<"part.page/class-mistake">(), reportMessage<"part.page/class-students">(),
+          reportMessage<"part.page/class-places">(), reportMessage<"part.page/class-points">(),
+          reportMessage<"part.page/class-example">()})
+        out << "<th>" << wordIn(all, head) << "</th>";
+    out << "</tr></thead><tbody>\n";
     for (const auto& [code, entry] : ranked) {
         out << "<tr><td>" << forMarkup(aboutKind(code)) << "</td><td>" << entry.students
             << "</td><td>" << entry.places << "</td><td>"
@@ -67,7 +78,8 @@ void writeFrequencies(std::ostream& out, const ClassResult& all) {
 }
 
 void writeSheet(std::ostream& out, const ClassResult& all) {
-    out << "<h2>Contact sheet</h2>\n<div class=\"sheet\">\n";
+    out << "<h2>" << wordIn(all, reportMessage<"part.page/class-sheet">())
+        << "</h2>\n<div class=\"sheet\">\n";
     for (std::size_t i = 0; i < all.count; ++i) {
         const SubmissionResult one = all.at(i);
         const std::string name = forMarkup(one.name.empty() ? one.id : one.name);
@@ -86,39 +98,55 @@ void writeSheet(std::ostream& out, const ClassResult& all) {
                     << base64(image) << "\">";
         }
         out << "<figcaption>" << name << "<b>"
-            << (one.graded ? twoDigits(one.points) : "not graded")
+            << (one.graded ? twoDigits(one.points)
+                           : wordIn(all, reportMessage<"part.page/not-graded">()))
             << "</b></figcaption></figure>\n";
     }
     out << "</div>\n";
 }
 
-void writeShared(std::ostream& out, const char* title, const std::vector<std::string>& texts) {
+void writeShared(std::ostream& out, const std::string& title,
+                 const std::vector<std::string>& texts) {
     if (texts.empty()) return;
-    out << "<p>" << title << " (" << texts.size() << ")</p><ul>";
+    out << "<p>" << title << "</p><ul>";
     for (std::size_t i = 0; i < std::min(texts.size(), kShownTraits); ++i)
         out << "<li>" << forMarkup(texts[i]) << "</li>";
     out << "</ul>";
 }
 
 void writeSimilar(std::ostream& out, const ClassResult& all) {
-    out << "<h2>Similar submissions</h2>\n<p>Pairs that share what neither the reference nor most "
-           "of the class has, the most first. A list to look into, not a verdict.</p>\n";
+    out << "<h2>" << wordIn(all, reportMessage<"part.page/class-similar">()) << "</h2>\n<p>"
+        << wordIn(all, reportMessage<"part.page/class-similar-about">()) << ".</p>\n";
     const std::vector<SimilarPair> pairs = similarPairs(all, kMaxPairs);
-    if (pairs.empty()) out << "<p>None.</p>\n";
+    if (pairs.empty())
+        out << "<p>" << wordIn(all, reportMessage<"part.page/class-none">()) << ".</p>\n";
     for (const SimilarPair& pair : pairs) {
         const SubmissionResult both[2] = {all.at(pair.first), all.at(pair.second)};
         const auto name = [&](const SubmissionResult& one) {
-            return forMarkup(one.name.empty() ? one.id : one.name);
+            return one.name.empty() ? one.id : one.name;
         };
-        out << "<details><summary>" << name(both[0]) << " and " << name(both[1]);
-        if (!all.tasks[pair.task].empty()) out << ", " << forMarkup(all.tasks[pair.task]);
-        out << "<b>" << twoDigits(pair.score) << "</b></summary>\n";
-        writeShared(out, "The same mistakes with the same numbers", pair.causes);
-        writeShared(out, "The same objects at the same other places", pair.places);
-        writeShared(out, "The same comments", pair.comments);
-        out << "<p>Runs of four tags written alike: " << pair.runs << "</p>\n<div class=\"both\">";
+        out << "<details><summary>"
+            << wordIn(all,
+                      reportMessage<"part.page/class-both">(
+                          "first"_arg = uncut(name(both[0])), "second"_arg = uncut(name(both[1])),
+                          "task"_arg = uncut(all.tasks[pair.task])))
+            << "<b>" << twoDigits(pair.score) << "</b></summary>\n";
+        writeShared(
+            out,
+            wordIn(all, reportMessage<"part.page/class-same">("count"_arg = pair.causes.size())),
+            pair.causes);
+        writeShared(
+            out,
+            wordIn(all, reportMessage<"part.page/class-objects">("count"_arg = pair.places.size())),
+            pair.places);
+        writeShared(out,
+                    wordIn(all, reportMessage<"part.page/class-comments">(
+                                    "count"_arg = pair.comments.size())),
+                    pair.comments);
+        out << "<p>" << wordIn(all, reportMessage<"part.page/class-alike">("count"_arg = pair.runs))
+            << "</p>\n<div class=\"both\">";
         for (const SubmissionResult& one : both)
-            out << "<div><h3>" << name(one) << "</h3><pre>"
+            out << "<div><h3>" << forMarkup(name(one)) << "</h3><pre>"
                 << forMarkup(parsedGrade(one.tasks[pair.task]).value("document", ""))
                 << "</pre></div>";
         out << "</div></details>\n";
@@ -128,7 +156,8 @@ void writeSimilar(std::ostream& out, const ClassResult& all) {
 }  // namespace
 
 void writeClassPage(std::ostream& out, const ClassResult& all) {
-    out << "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n<meta "
+    out << "<!doctype html>\n<html lang=\"" << kLanguageWords[all.language]
+        << "\"><head><meta charset=\"utf-8\">\n<meta "
            "name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<meta "
            "name=\"color-scheme\" content=\"light dark\">\n<meta "
            "http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; "
@@ -143,8 +172,11 @@ void writeClassPage(std::ostream& out, const ClassResult& all) {
         passed += one.passed ? 1 : 0;
         sum += one.graded ? one.points : 0.0;
     }
-    out << "<p>" << all.count << " submissions, " << graded << " graded, " << passed
-        << " passed; mean " << (graded > 0 ? twoDigits(sum / static_cast<double>(graded)) : "-")
+    const std::string mean = graded > 0 ? twoDigits(sum / static_cast<double>(graded)) : "-";
+    out << "<p>"
+        << wordIn(all, reportMessage<"part.page/class-summary">(
+                           "count"_arg = all.count, "graded"_arg = graded, "passed"_arg = passed,
+                           "mean"_arg = mean))
         << "</p>\n";
     writeFrequencies(out, all);
     writeSheet(out, all);

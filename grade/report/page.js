@@ -15,11 +15,12 @@ const submissions = [...document.querySelectorAll('script.submission')].map((ele
 const hashOf = (one) => '#' + encodeURIComponent(one.id);
 
 document.getElementById('title').textContent = about.title;
-document.title = `Grades: ${about.title}`;
+document.documentElement.lang = about.language;
 const view = gradesView({
   head: document.querySelector('header'), body: document.querySelector('main'), keys: document,
-  chosen: (one) => history.replaceState(null, '', hashOf(one)),
+  chosen: (one) => history.replaceState(null, '', hashOf(one)), translation: about.words,
 });
+document.title = say('title', {title: about.title});
 view.show(submissions);
 const linked = submissions.findIndex((one) => hashOf(one) === location.hash);
 if (linked >= 0) view.choose(linked, false);

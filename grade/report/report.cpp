@@ -11,7 +11,9 @@
 #include "core/base64.h"
 #include "core/bounded_json.h"
 #include "core/text.h"
+#include "grade/messages.h"
 #include "grade/report/csv.h"
+#include "grade/report/messages.h"
 #include "grade/report/page_files.h"
 #include "grade/report/text.h"
 #include "grade/rubric/grader.h"
@@ -68,15 +70,28 @@ std::string forScript(std::string json) {
     return out;
 }
 
-/// " (line 3)", " (lines 3, 5)", " (lines 3, 5, 7 and 4 more)"; "" where there is none.
-std::string linesText(const std::vector<int>& lines) {
+/// The text with the lines where it holds: "a (lines 3, 5 and 4 more)".
+std::string withLines(Language language, const std::string& text, const std::vector<int>& lines) {
     constexpr std::size_t kListed = 6;
-    if (lines.empty()) return "";
+    if (lines.empty()) return text;
+    if (lines.size() == 1)
+        return textIn(language, message<"part.feedback/one-line">("text"_arg = uncut(text),
+                                                                  "line"_arg = lines.front()));
     const std::span listed(lines.data(), std::min(kListed, lines.size()));
-    std::string out = (lines.size() > 1 ? " (lines " : " (line ") +
-                      joined(listed, ", ", [](int line) { return std::to_string(line); });
-    if (lines.size() > kListed) out += " and " + std::to_string(lines.size() - kListed) + " more";
-    return out + ")";
+    const std::string list = joined(listed, ", ", [](int line) { return std::to_string(line); });
+    const std::string more =
+        lines.size() > kListed ? std::to_string(lines.size() - kListed) : std::string();
+    return textIn(language, message<"part.feedback/lines">("text"_arg = uncut(text),
+                                                           "lines"_arg = list, "more"_arg = more));
+}
+
+/// The words of view.js by their ids without "part.page/"; none for English, which it has.
+ordered_json wordsIn(Language language) {
+    ordered_json words = ordered_json::object();
+    for (const MessageRow& row : kReportMessages)
+        if (const auto text = templateOf(language, row.id))
+            words[std::string(row.id.substr(row.id.find('/') + 1))] = *text;
+    return words;
 }
 
 /// Of grades of earlier versions, too.
@@ -100,7 +115,7 @@ std::string identityFields(const Member& member) {
 }
 
 /// The text for a student: each loss, then each finding.
-std::string feedback(const SubmissionResult& one) {
+std::string feedback(const SubmissionResult& one, Language language) {
     std::string out;
     const auto line = [&](const std::string& text) { out += (out.empty() ? "" : "\n") + text; };
     for (const std::string& comment : one.comments) line(comment);
@@ -119,7 +134,9 @@ std::string feedback(const SubmissionResult& one) {
         }
         // Errors of the document follow below.
         if (grade.contains("reason") && grade.value("diagnostics", ordered_json::array()).empty())
-            line(prefix + "not graded: " + grade["reason"].value("message", ""));
+            line(prefix +
+                 textIn(language, message<"part.feedback/not-graded">(
+                                      "reason"_arg = uncut(grade["reason"].value("message", "")))));
         for (const auto& finding : grade.value("findings", ordered_json::array())) {
             const double points = finding.value("points", 0.0);
             const bool isMissing = finding.value("code", "").ends_with(".missing");
@@ -131,20 +148,20 @@ std::string feedback(const SubmissionResult& one) {
         const double unexplained =
             grade.value("unexplained", ordered_json::object()).value("points", 0.0);
         if (unexplained > 0.0)
-            line(prefix + "unexplained: the pictures differ for a reason that was not found (-" +
-                 twoDigits(unexplained) + ")");
+            line(prefix + textIn(language, message<"part.feedback/unexplained">(
+                                               "points"_arg = twoDigits(unexplained))));
         // An error at several places is listed once, with its lines.
         std::vector<std::pair<std::string, std::vector<int>>> errors;
         for (const auto& diagnostic : grade.value("diagnostics", ordered_json::array())) {
             if (diagnostic.value("severity", "") != "error" && !(grade.value("penalty", 0.0) > 0.0))
                 continue;
-            const std::string message = diagnostic.value("message", "");
+            const std::string text = diagnostic.value("message", "");
             auto found = std::find_if(errors.begin(), errors.end(),
-                                      [&](const auto& entry) { return entry.first == message; });
-            if (found == errors.end()) found = errors.insert(errors.end(), {message, {}});
+                                      [&](const auto& entry) { return entry.first == text; });
+            if (found == errors.end()) found = errors.insert(errors.end(), {text, {}});
             if (diagnostic.contains("line")) found->second.push_back(diagnostic.value("line", 0));
         }
-        for (const auto& [message, lines] : errors) line(prefix + message + linesText(lines));
+        for (const auto& [text, lines] : errors) line(prefix + withLines(language, text, lines));
         for (const auto& criterion : grade.value("criteria", ordered_json::array()))
             if (criterion.contains("measured") &&
                 criterion.value("points", 0.0) < criterion.value("most", 0.0) &&
@@ -172,7 +189,7 @@ void writeCsv(std::ostream& out, const ClassResult& all) {
            "Feedback comments\r\n";
     for (std::size_t i = 0; i < all.count; ++i) {
         const SubmissionResult one = all.at(i);
-        const std::string comments = forCsv(feedback(one));
+        const std::string comments = forCsv(feedback(one, all.language));
         for (const Member& member : all.groups.membersOf(one.id, one.name, one.number))
             out << identityFields(member) << "," << (one.graded ? twoDigits(one.points) : "") << ","
                 << twoDigits(one.most) << ",,"
@@ -252,12 +269,12 @@ void writeJunit(std::ostream& out, const ClassResult& all) {
                 out << "<error type=\"" << forMarkup(failure->code) << "\" message=\""
                     << forMarkup(failure->message) << "\"/>";
             else if (isNotGraded(grade))
-                out << "<error type=\"grade.refused\" message=\"" << forMarkup(feedback(one))
-                    << "\"/>";
+                out << "<error type=\"grade.refused\" message=\""
+                    << forMarkup(feedback(one, all.language)) << "\"/>";
             else if (failed(task))
                 out << "<failure message=\"" << twoDigits(grade.value("points", 0.0)) << " of "
                     << twoDigits(grade.value("most", 0.0)) << " points\">"
-                    << forMarkup(feedback(one)) << "</failure>";
+                    << forMarkup(feedback(one, all.language)) << "</failure>";
             out << "<system-out>" << twoDigits(grade.is_object() ? grade.value("points", 0.0) : 0.0)
                 << " points</system-out></testcase>\n";
         }
@@ -278,7 +295,10 @@ void writeHtml(std::ostream& out, const ClassResult& all) {
     put(pageFile("view.css"));
     at = part("<!--DATA-->", at);
     put("<script type=\"application/json\" id=\"class\">");
-    put(forScript(dumpJson(ordered_json{{"title", all.title}, {"tasks", all.tasks}})));
+    put(forScript(dumpJson(ordered_json{{"title", all.title},
+                                        {"tasks", all.tasks},
+                                        {"language", kLanguageWords[all.language]},
+                                        {"words", wordsIn(all.language)}})));
     put("</script>\n");
     const auto pictures = [&](const std::string& id, const std::vector<std::string>& list) {
         ordered_json urls = ordered_json::array();

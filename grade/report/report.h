@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/language.h"
 #include "grade/report/groups.h"
 
 /// A class's results as files: a page to read, a table for the grade book, JUnit for CI services,
@@ -58,6 +59,7 @@ struct ClassResult {
     std::vector<std::vector<std::string>> references;
     std::string rubric;  ///< JSON
     Groups groups = {};
+    Language language = Language::en;  ///< of pages and comments
 };
 
 void writeHtml(std::ostream& out, const ClassResult& all);

@@ -15,6 +15,13 @@ double twoDigits(double points) { return std::round(points * 100.0) / 100.0; }
 /// A measured value, to digits that no machine's arithmetic changes.
 double sixDigits(double measured) { return std::round(measured * 1e6) / 1e6; }
 
+/// A text as a sentence, with a capital letter and a full stop.
+std::string sentenceIn(Language language, const Message& message) {
+    std::string text = textIn(language, message) + ".";
+    if (text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 'a' + 'A');
+    return text;
+}
+
 /// A number, or an object of several.
 ordered_json columnsOf(const ImageMetric& metric, const Measurement& measured) {
     if (metric.columns.size() == 1) return sixDigits(measured.columns.front());
@@ -32,12 +39,12 @@ ordered_json placeOf(const Location& where) {
     return out;
 }
 
-ordered_json causesOf(const Grade& grade) {
+ordered_json causesOf(const Grade& grade, Language language) {
     ordered_json out = ordered_json::array();
     for (const GradedCause& one : grade.causes) {
         ordered_json entry{{"code", one.code},
                            {"criterion", kTopicWords[kindOf(one.code).topic]},
-                           {"message", one.message.text},
+                           {"message", textIn(language, one.message)},
                            {"points", twoDigits(one.points)},
                            {"seen", one.isSeen},
                            {"spoils", sixDigits(one.spoiled)}};
@@ -45,7 +52,7 @@ ordered_json causesOf(const Grade& grade) {
         if (!one.places.front().excerpt.empty()) entry["excerpt"] = one.places.front().excerpt;
         entry["places"] = ordered_json::array();
         for (const CausePlace& place : one.places) {
-            ordered_json where{{"who", place.who.text}};
+            ordered_json where{{"who", textIn(language, place.who)}};
             where.update(placeOf(place.where));
             if (&place != &one.places.front() && !place.excerpt.empty())
                 where["excerpt"] = place.excerpt;
@@ -141,7 +148,7 @@ ordered_json viewsOf(const Grade& grade) {
 
 }  // namespace
 
-std::string toJson(const Grade& grade) {
+std::string toJson(const Grade& grade, Language language) {
     ordered_json out{
         {"state", grade.notGraded ? "not graded" : "graded"},
         {"points", grade.points},
@@ -154,7 +161,8 @@ std::string toJson(const Grade& grade) {
         {"unexplained",
          {{"points", grade.unexplained}, {"share", sixDigits(grade.unexplainedShare)}}}};
     if (grade.notGraded)
-        out["reason"] = {{"code", grade.notGraded->code}, {"message", grade.notGraded->reason}};
+        out["reason"] = {{"code", grade.notGraded->code},
+                         {"message", textIn(language, grade.notGraded->reason)}};
     if (grade.similarity) out["similarity"] = sixDigits(*grade.similarity);
     out["criteria"] = ordered_json::array();
     for (const CriterionGrade& one : grade.criteria) {
@@ -162,11 +170,11 @@ std::string toJson(const Grade& grade) {
                            {"points", twoDigits(one.points)},
                            {"most", twoDigits(one.most)}};
         if (one.metric->image() != nullptr) entry["measured"] = sixDigits(one.measured);
-        entry["reason"] = one.reason;
+        entry["reason"] = sentenceIn(language, one.reason);
         out["criteria"].push_back(std::move(entry));
     }
     addRequirements(grade, out["criteria"]);
-    out["findings"] = causesOf(grade);
+    out["findings"] = causesOf(grade, language);
     addUnmet(grade, out["findings"]);
     out["diagnostics"] = ordered_json::array();
     for (std::size_t i = 0; i < grade.diagnostics.size(); ++i) {
@@ -175,7 +183,7 @@ std::string toJson(const Grade& grade) {
         if (one.severity == Severity::info && !one.code.starts_with("grade.")) continue;
         ordered_json entry{{"code", one.code}, {"severity", kSeverityWords[one.severity]}};
         entry.update(placeOf(one.where));
-        entry["message"] = one.message;
+        entry["message"] = textIn(language, one);
         if (i < grade.excerpts.size() && !grade.excerpts[i].empty())
             entry["excerpt"] = grade.excerpts[i];
         out["diagnostics"].push_back(std::move(entry));

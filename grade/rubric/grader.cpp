@@ -444,7 +444,7 @@ Grade Grader::grade(const Subject& reference, const Subject& given, const Rubric
         append(grade.diagnostics, submission.notes);
         if (isImage && !rubric.takesImages) {
             grade.similarity = 1.0 - grade.views.front().measured.at(&mainMetric()).loss;
-            grade.notGraded = NotGraded{"grade.image", message<"grade.image">().text};
+            grade.notGraded = NotGraded{"grade.image", message<"grade.image">()};
         }
         // No requirement is met by an image.
         if (!scenes) grade.requirements = gradeFiles(rubric, scene::BundleAssets());
@@ -453,8 +453,8 @@ Grade Grader::grade(const Subject& reference, const Subject& given, const Rubric
         if (error.code() == "limit.cost") throw;
         const bool isImage = submission.picture.has_value() && (isAlone || !against->screen);
         grade.notGraded = isImage && !rubric.takesImages
-                              ? NotGraded{"grade.image", message<"grade.image">().text}
-                              : NotGraded{error.code(), error.what()};
+                              ? NotGraded{"grade.image", message<"grade.image">()}
+                              : NotGraded{error.code(), messageOf(error.primary())};
         grade.diagnostics = error.diagnostics();
         grade.views.clear();
     }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/bounded_json.h"
+#include "core/language.h"
 #include "grade/requirements/evaluate.h"
 #include "grade/rubric/rubric.h"
 #include "grade/rubric/severity.h"
@@ -21,7 +22,7 @@ struct CriterionGrade {
     const MetricSpec* metric;  ///< of metrics()
     double points = 0, most = 0;
     double measured = 0;  ///< of image metrics: the loss 0 (alike) to 1, mean over the views
-    std::string reason;   ///< the points explained in one sentence
+    Message reason;       ///< the points explained
 };
 
 /// A place of the document that a cause stands at.
@@ -58,8 +59,8 @@ struct GradeTimes {
 
 /// Why a submission has no mark.
 struct NotGraded {
-    std::string code;    ///< "grade.image", "xml.empty"
-    std::string reason;  ///< one sentence
+    std::string code;  ///< "grade.image", "xml.empty"
+    Message reason;
 };
 
 struct Grade {
@@ -106,7 +107,7 @@ class Grader {
 };
 
 /// The grade as JSON (docs/grading.md), without the pictures.
-std::string toJson(const Grade& grade);
+std::string toJson(const Grade& grade, Language language = Language::en);
 /// Bounds of that document where it is read again.
 inline constexpr JsonLimits kGradeJson{.bytes = std::size_t{16} << 20U,
                                        .depth = 8,

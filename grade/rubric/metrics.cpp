@@ -5,6 +5,7 @@
 
 #include "grade/images/measures.h"
 #include "grade/images/ssim.h"
+#include "grade/messages.h"
 
 namespace farol::grade {
 namespace {
@@ -74,8 +75,7 @@ std::vector<MetricSpec> makeMetrics() {
                      .compute = differenceOf,
                      .sentence =
                          [](double loss) {
-                             return percent(loss) +
-                                    " of what the pictures show differs beyond a pixel's shift";
+                             return message<"part.loss/difference">("share"_arg = percent(loss));
                          },
                      .columns = {{"difference", "Differs:", Format::percent}},
                      .tolerance = 0.002,
@@ -86,10 +86,8 @@ std::vector<MetricSpec> makeMetrics() {
                      .compute = flipOf,
                      .sentence =
                          [](double loss) {
-                             return "a person who switches between the pictures sees a "
-                                    "difference of " +
-                                    shortNumber(std::round(loss * 1000.0) / 1000.0) +
-                                    " of 1 (mean FLIP)";
+                             return message<"part.loss/flip">(
+                                 "value"_arg = shortNumber(std::round(loss * 1000.0) / 1000.0));
                          },
                      .columns = {{"mean", "FLIP mean", Format::decimals},
                                  {"p95", "95th percentile", Format::decimals}},
@@ -97,14 +95,12 @@ std::vector<MetricSpec> makeMetrics() {
                      .limit = 0.5},
          5, false},
         {"ssim", "1 - mean SSIM (Wang et al. 2004); reports show the mean itself",
-         ImageMetric{.needs = {},
-                     .compute = ssimOf,
-                     .sentence =
-                         [](double loss) {
-                             return "the structure of the pictures differs by " + percent(loss) +
-                                    " (1 - SSIM)";
-                         },
-                     .columns = {{"ssim", "SSIM", Format::decimals}}},
+         ImageMetric{
+             .needs = {},
+             .compute = ssimOf,
+             .sentence =
+                 [](double loss) { return message<"part.loss/ssim">("share"_arg = percent(loss)); },
+             .columns = {{"ssim", "SSIM", Format::decimals}}},
          1, false},
         {"coverage",
          "1 - IoU of each object's pixels, mean over the objects by the root of their areas; a "
@@ -113,8 +109,7 @@ std::vector<MetricSpec> makeMetrics() {
                      .compute = coverageOf,
                      .sentence =
                          [](double loss) {
-                             return "objects cover " + percent(loss) +
-                                    " of their pixels elsewhere than expected (1 - IoU)";
+                             return message<"part.loss/coverage">("share"_arg = percent(loss));
                          },
                      .columns = {{"coverage", "objects elsewhere", Format::percent}},
                      .tolerance = 0.02,
@@ -125,7 +120,7 @@ std::vector<MetricSpec> makeMetrics() {
                      .compute = depthOf,
                      .sentence =
                          [](double loss) {
-                             return percent(loss) + " of the objects' pixels lie at another depth";
+                             return message<"part.loss/depth">("share"_arg = percent(loss));
                          },
                      .columns = {{"depth", "other depth", Format::percent}},
                      .tolerance = 0.01,
@@ -136,7 +131,7 @@ std::vector<MetricSpec> makeMetrics() {
                      .compute = normalsOf,
                      .sentence =
                          [](double loss) {
-                             return percent(loss) + " of the objects' pixels have another normal";
+                             return message<"part.loss/normals">("share"_arg = percent(loss));
                          },
                      .columns = {{"normals", "other normals", Format::percent}},
                      .tolerance = 0.01,

@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/message.h"
 #include "grade/rubric/frame.h"
 #include "grade/rubric/severity.h"
 
@@ -32,7 +33,7 @@ struct MetricColumn {
 struct ImageMetric {
     FrameParts needs;
     Measurement (*compute)(FramePair& pair);
-    std::string (*sentence)(double loss);  ///< without the full stop
+    Message (*sentence)(double loss);  ///< without the full stop
     std::vector<MetricColumn> columns;
     double tolerance = 0.0, limit = 1.0;  ///< of a rubric that does not set them
 };

@@ -22,10 +22,6 @@ double lossIn(const ViewGrade& view, const MetricSpec& metric) {
     return view.measured.at(&metric).loss;
 }
 
-std::string pointsText(double points, double most) {
-    return shortNumber(rounded(points)) + " of " + shortNumber(rounded(most)) + " points";
-}
-
 bool isOfObjects(Topic topic) {
     return topic == Topic::models || topic == Topic::transforms || topic == Topic::textures ||
            topic == Topic::materials;
@@ -33,24 +29,27 @@ bool isOfObjects(Topic topic) {
 
 CriterionGrade judgeMeasured(const Grade& grade, const Criterion& rule, double most,
                              double strictness) {
-    CriterionGrade out{rule.metric, 0, most, 0, ""};
+    CriterionGrade out{rule.metric, 0, most, 0, {}};
     const ViewGrade* worst = nullptr;
     for (const ViewGrade& view : grade.views) {
         const double value = lossIn(view, *rule.metric);
         out.measured += value / static_cast<double>(grade.views.size());
         if (worst == nullptr || value > lossIn(*worst, *rule.metric)) worst = &view;
     }
-    const double loss = std::clamp(
+    const double lost = std::clamp(
         strictness * (out.measured - rule.tolerance) / (rule.limit - rule.tolerance), 0.0, 1.0);
-    out.points = most * (1.0 - loss) * grade.present;
-    out.reason = rule.metric->image()->sentence(out.measured);
-    if (worst != nullptr && grade.views.size() > 1 && lossIn(*worst, *rule.metric) > out.measured)
-        out.reason += ", most of it " + worst->name;
-    out.reason += out.points < most ? "; that gives " + pointsText(out.points, most)
-                                    : "; up to " + shortNumber(rule.tolerance) + " costs nothing";
-    out.reason += ".";
-    if (out.reason[0] >= 'a' && out.reason[0] <= 'z')
-        out.reason[0] = static_cast<char>(out.reason[0] - 'a' + 'A');
+    out.points = most * (1.0 - lost) * grade.present;
+    const Message loss = rule.metric->image()->sentence(out.measured);
+    const bool isUneven =
+        worst != nullptr && grade.views.size() > 1 && lossIn(*worst, *rule.metric) > out.measured;
+    const std::string view = isUneven ? worst->name : "";
+    out.reason =
+        out.points < most
+            ? message<"part.criterion/lost">("loss"_arg = loss, "view"_arg = view,
+                                             "points"_arg = shortNumber(rounded(out.points)),
+                                             "most"_arg = shortNumber(rounded(most)))
+            : message<"part.criterion/free">("loss"_arg = loss, "view"_arg = view,
+                                             "tolerance"_arg = shortNumber(rule.tolerance));
     return out;
 }
 
@@ -180,19 +179,21 @@ class WorkScore {
     CriterionGrade judged(const Criterion& rule) const {
         const Topic topic = rule.metric->causes()->topic;
         const std::size_t at = indexOf(topic);
-        CriterionGrade out{rule.metric, left_[at], most_[at], 0, ""};
+        CriterionGrade out{rule.metric, left_[at], most_[at], 0, {}};
         int count = 0;
         for (const GradedCause& one : grade_.causes)
             count += kindOf(one.code).topic == topic && one.points > 0.0 ? 1 : 0;
-        if (count > 0) out.reason = std::to_string(count) + (count > 1 ? " causes" : " cause");
-        if (grade_.present < 1.0 - 1e-9)
-            out.reason += (out.reason.empty() ? "" : "; ") + percent(grade_.present) +
-                          " of the objects are there";
-        if (out.reason.empty())
-            out.reason = out.points < out.most - 0.005
-                             ? "Causes of other criteria cost more than those have"
-                             : "Nothing differs";
-        out.reason += ".";
+        const std::string share = grade_.present < 1.0 - 1e-9 ? percent(grade_.present) : "";
+        if (count == 1)
+            out.reason = message<"part.criterion/cause">("share"_arg = share);
+        else if (count > 1)
+            out.reason = message<"part.criterion/causes">("count"_arg = count, "share"_arg = share);
+        else if (!share.empty())
+            out.reason = message<"part.criterion/present">("share"_arg = share);
+        else if (out.points < out.most - 0.005)
+            out.reason = message<"part.criterion/others">();
+        else
+            out.reason = message<"part.criterion/nothing">();
         return out;
     }
 

@@ -72,6 +72,15 @@ Language acceptedLanguage(const std::optional<std::string>& header) {
     return best;
 }
 
+Language languageOf(const http::Request& request) {
+    return acceptedLanguage(request.header("accept-language"));
+}
+
+void setLanguage(http::Response& response, Language language) {
+    response.set("Content-Language", std::string(kLanguageWords[language]));
+    response.set("Vary", "Accept-Language");
+}
+
 void chooseFormat(Parameters& wanted, const std::optional<std::string>& accept) {
     const image::Format asked = wanted.picture.format;
     double best = 0.0;

@@ -16,6 +16,11 @@ double acceptedQuality(const std::optional<std::string>& accept, const std::stri
 /// highest quality, the first of equals. "pt-BR" is pt, "*" English; English if it names no known
 /// one.
 Language acceptedLanguage(const std::optional<std::string>& header);
+/// The same of a request.
+Language languageOf(const http::Request& request);
+
+/// Adds Content-Language and Vary to a response with messages in `language`.
+void setLanguage(http::Response& response, Language language);
 
 /// If the query names no format, chooses the one that the client prefers, PNG first. Throws Error
 /// http.not-acceptable when the client accepts none, or not the named one.

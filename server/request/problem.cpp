@@ -5,6 +5,7 @@
 #include <map>
 
 #include "core/limit_findings.h"
+#include "server/request/media.h"
 
 namespace farol::server {
 
@@ -68,12 +69,12 @@ Problem problemOf(int status, Message message) {
 
 Diagnostics errorsOf(const Problem& problem) { return notable(problem.diagnostics); }
 
-json toJson(const Diagnostics& diagnostics) {
+json toJson(const Diagnostics& diagnostics, Language language) {
     json out = json::array();
     for (const Diagnostic& one : diagnostics) {
         json entry = {{"code", one.code},
                       {"severity", kSeverityWords[one.severity]},
-                      {"message", one.message}};
+                      {"message", textIn(language, one)}};
         if (!one.where.file.empty()) entry["file"] = one.where.file;
         if (one.where.line > 0) entry["line"] = one.where.line;
         if (one.where.column > 0) entry["column"] = one.where.column;
@@ -84,10 +85,11 @@ json toJson(const Diagnostics& diagnostics) {
     return out;
 }
 
-void setDiagnostics(json& object, const std::string& member, Diagnostics diagnostics) {
+void setDiagnostics(json& object, const std::string& member, Diagnostics diagnostics,
+                    Language language) {
     object[member + "Total"] = countFindings(diagnostics);
     limitFindings(diagnostics);
-    object[member] = toJson(diagnostics);
+    object[member] = toJson(diagnostics, language);
 }
 
 Diagnostics notable(const Diagnostics& diagnostics) {
@@ -101,14 +103,24 @@ std::string dump(const json& value, int indent) {
     return value.dump(indent, ' ', false, json::error_handler_t::replace);
 }
 
-http::Response problemResponse(const Problem& problem, const std::string& requestId) {
+namespace {
+/// Returns the detail, which is the text of one of the diagnostics, in the language.
+std::string detailIn(Language language, const Problem& problem) {
+    for (const Diagnostic& finding : problem.diagnostics)
+        if (finding.message == problem.detail) return textIn(language, finding);
+    return problem.detail;
+}
+}  // namespace
+
+http::Response problemResponse(const Problem& problem, const std::string& requestId,
+                               Language language) {
     json body = {{"type", "urn:farol:problem:" + problem.code},
                  {"title", statusTitle(problem.status)},
                  {"status", problem.status},
                  {"code", problem.code},
-                 {"detail", problem.detail},
+                 {"detail", detailIn(language, problem)},
                  {"requestId", requestId}};
-    setDiagnostics(body, "errors", errorsOf(problem));
+    setDiagnostics(body, "errors", errorsOf(problem), language);
     http::Response response;
     response.status = problem.status;
     response.contentType = "application/problem+json";
@@ -116,6 +128,7 @@ http::Response problemResponse(const Problem& problem, const std::string& reques
     response.headers = problem.headers;
     response.hold = problem.hold;
     response.set("Cache-Control", "no-store");
+    setLanguage(response, language);
     response.logged.emplace_back("code", problem.code);
     return response;
 }

@@ -8,6 +8,7 @@
 
 #include "core/code_status.h"
 #include "core/error.h"
+#include "core/language.h"
 #include "server/http/message.h"
 #include "worker/backend.h"
 
@@ -45,14 +46,16 @@ class ProblemException : public std::exception {
 Diagnostics errorsOf(const Problem& problem);
 
 /// Returns the response with the problem document. Precondition: problem.status is 400..599.
-http::Response problemResponse(const Problem& problem, const std::string& requestId);
+http::Response problemResponse(const Problem& problem, const std::string& requestId,
+                               Language language = Language::en);
 
 /// [{code,severity,file,line,column,message,field}]; unknown members are left out.
-nlohmann::json toJson(const Diagnostics& diagnostics);
+nlohmann::json toJson(const Diagnostics& diagnostics, Language language = Language::en);
 
 /// Sets `member` to the findings, at most kMaxFindings with a note of how many are left out, and
 /// `member`Total to the number of all.
-void setDiagnostics(nlohmann::json& object, const std::string& member, Diagnostics diagnostics);
+void setDiagnostics(nlohmann::json& object, const std::string& member, Diagnostics diagnostics,
+                    Language language = Language::en);
 
 /// Returns the diagnostics without infos.
 Diagnostics notable(const Diagnostics& diagnostics);

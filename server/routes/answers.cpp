@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "server/etag.h"
+#include "server/request/media.h"
 #include "server/request/parameters.h"
 #include "server/request/problem.h"
 
@@ -21,9 +22,16 @@ http::Response freshJson(const nlohmann::json& value) {
     return response;
 }
 
-http::Response tagged(const Call& call, std::string body, const std::string& type) {
+http::Response freshJson(const nlohmann::json& value, Language language) {
+    http::Response response = freshJson(value);
+    setLanguage(response, language);
+    return response;
+}
+
+namespace {
+http::Response withTag(const Call& call, std::string body, const std::string& type,
+                       const std::string& tag) {
     http::Response response;
-    const std::string tag = entityTag({body});
     response.set("ETag", tag);
     if (matchesTag(call.request.header("if-none-match"), tag)) {
         response.status = 304;
@@ -31,6 +39,20 @@ http::Response tagged(const Call& call, std::string body, const std::string& typ
     }
     response.contentType = type;
     response.body = std::move(body);
+    return response;
+}
+}  // namespace
+
+http::Response tagged(const Call& call, std::string body, const std::string& type) {
+    const std::string tag = entityTag({body});
+    return withTag(call, std::move(body), type, tag);
+}
+
+http::Response taggedJson(const Call& call, const nlohmann::json& value, Language language) {
+    std::string body = dump(value, 2) + "\n";
+    const std::string tag = entityTag({body, kLanguageWords[language]});
+    http::Response response = withTag(call, std::move(body), "application/json", tag);
+    setLanguage(response, language);
     return response;
 }
 

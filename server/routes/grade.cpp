@@ -7,6 +7,7 @@
 #include "core/text.h"
 #include "grade/rubric/grader.h"
 #include "server/messages.h"
+#include "server/request/media.h"
 #include "server/request/parameters.h"
 #include "server/request/upload.h"
 #include "server/routes/answers.h"
@@ -64,6 +65,7 @@ http::Response postGrade(Context& context, const Call& call) {
     worker::GradeTask::Request job =
         readJob(readParts(call.request, call.body, context.options.maxBodyBytes));
     job.submission.job.options.missing = options.missing;
+    job.language = languageOf(call.request);
     const auto done = context.backend.run<worker::GradeTask>(job);
     nlohmann::json body = parseJson(done.result.json, grade::kGradeJson);
     // For comparing a class; the client has the document.
@@ -80,7 +82,7 @@ http::Response postGrade(Context& context, const Call& call) {
             }
         }
     }
-    return freshJson(body);
+    return freshJson(body, job.language);
 }
 
 }  // namespace farol::server

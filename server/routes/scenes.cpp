@@ -5,6 +5,7 @@
 #include "core/text.h"
 #include "server/etag.h"
 #include "server/json.h"
+#include "server/request/media.h"
 #include "server/request/parameters.h"
 #include "server/request/problem.h"
 #include "server/routes/answers.h"
@@ -39,27 +40,29 @@ http::Response listScenes(Context& context, const Call& call) {
                       [&](const ServedScene& one) { return !isFound(context.scenes, one, words); });
     const int pages = std::max(1, (static_cast<int>(all.size()) + kPageSize - 1) / kPageSize);
     const auto page = wholeNumber("page", wanted.ownValue("page", "1"), 1, pages);
+    const Language language = languageOf(call.request);
     json scenes = json::array();
     const std::size_t first = static_cast<std::size_t>(page - 1) * kPageSize;
     for (std::size_t i = first; i < std::min(all.size(), first + kPageSize); ++i) {
         const auto facts = context.scenes.known(all[i]);
-        json entry = describe(all[i], facts->report, facts->errors, context.options.basePath);
+        json entry =
+            describe(all[i], facts->report, facts->errors, context.options.basePath, language);
         if (facts->errors.empty())  // the whole list is at the scene's own address
-            setDiagnostics(entry, "diagnostics", notable(facts->report.diagnostics));
+            setDiagnostics(entry, "diagnostics", notable(facts->report.diagnostics), language);
         scenes.push_back(std::move(entry));
     }
     const json body = {{"scenes", scenes}, {"page", page}, {"pages", pages}, {"total", all.size()}};
-    return tagged(call, dump(body, 2) + "\n", "application/json");
+    return taggedJson(call, body, language);
 }
 
 http::Response getScene(Context& context, const Call& call) {
     refuseParameters(call);
     const ServedScene scene = context.scenes.find(call.parameter);
     const auto facts = context.scenes.known(scene);
-    return tagged(
-        call,
-        dump(describe(scene, facts->report, facts->errors, context.options.basePath), 2) + "\n",
-        "application/json");
+    const Language language = languageOf(call.request);
+    return taggedJson(
+        call, describe(scene, facts->report, facts->errors, context.options.basePath, language),
+        language);
 }
 
 http::Response getModels(Context& context, const Call& call) {

@@ -6,6 +6,7 @@
 #include "server/http/uri.h"
 #include "server/json.h"
 #include "server/messages.h"
+#include "server/request/media.h"
 #include "server/request/parameters.h"
 #include "server/request/problem.h"
 #include "server/routes/answers.h"
@@ -46,8 +47,10 @@ http::Response postScene(Context& context, const Call& call) {
         clientOf(call.request, context.options.rate.trustProxy), *upload.bundle, listed);
     const auto facts =
         context.scenes.remember(kept.entry.id, kept.entry.id, std::move(inspected.result));
-    http::Response response =
-        freshJson(describe(uploadOf(kept.entry), facts->report, {}, context.options.basePath));
+    const Language language = languageOf(call.request);
+    http::Response response = freshJson(
+        describe(uploadOf(kept.entry), facts->report, {}, context.options.basePath, language),
+        language);
     response.status = kept.created ? 201 : 200;
     response.set("Location",
                  context.options.basePath + "/v1/scenes/" + http::percentEncodePath(kept.entry.id));

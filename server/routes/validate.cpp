@@ -1,6 +1,7 @@
 #include <nlohmann/json.hpp>
 
 #include "server/json.h"
+#include "server/request/media.h"
 #include "server/request/parameters.h"
 #include "server/routes/answers.h"
 #include "server/routes/uploads.h"
@@ -15,10 +16,11 @@ http::Response postValidate(Context& context, const Call& call) {
     Upload upload = takeUpload(context, call, wanted.ownValue("base"));
     upload.job.strict = wanted.strict;
     const auto done = context.backend.run<worker::InspectTask>({std::move(upload.job)});
-    nlohmann::json body = toJson(done.result);
+    const Language language = languageOf(call.request);
+    nlohmann::json body = toJson(done.result, language);
     body["valid"] = true;
     if (models) body.update(modelsOf(done.result));
-    return freshJson(body);
+    return freshJson(body, language);
 }
 
 }  // namespace farol::server

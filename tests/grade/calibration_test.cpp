@@ -38,7 +38,7 @@ std::string told(const grade::Grade& grade) {
     std::string out;
     for (const auto& one : grade.causes) out += "\n    " + one.code + ": " + one.message.text;
     for (const auto& one : grade.criteria)
-        if (one.points < one.most) out += "\n    " + one.reason;
+        if (one.points < one.most) out += "\n    " + one.reason.text;
     for (const auto& one : grade.diagnostics)
         if (one.severity == Severity::error) out += "\n    " + one.message;
     return out;

@@ -99,7 +99,7 @@ TEST_CASE("a class has the marks that a fair teacher gives") {
             submission.job.options.missing = render::Missing::placeholder;
             const grade::Grade grade = grader.grade(reference, submission, rubric);
             if (!grade.notGraded) mark.points = grade.points;
-            if (grade.notGraded) mark.causes.push_back(grade.notGraded->reason);
+            if (grade.notGraded) mark.causes.push_back(grade.notGraded->reason.text);
             for (const grade::GradedCause& one : grade.causes) {
                 std::ostringstream text;
                 text << one.message.text << " (-" << one.points << ")";

@@ -48,7 +48,7 @@ bool hasWords(std::string text) {
 }
 
 /// Messages that are the same in English and another language: names of elements, which stay.
-const std::set<std::string_view> kEqual{"part.element/rotate",      "part.element/scale",
+const std::set<std::string_view> kEqual{"part.page/error", "part.element/rotate",      "part.element/scale",
                                         "part.element/translate",   "part.transform/scale",
                                         "part.transform/translate", "part.patches"};
 

@@ -23,7 +23,7 @@ GradeTask::Reply GradeTask::run(const Request& request, WorkerState& state) {
     grade::Grade grade =
         state.grader.grade(request.reference, request.submission, state.rubric(request.rubric));
     Reply reply;
-    reply.json = grade::toJson(grade);
+    reply.json = grade::toJson(grade, request.language);
     reply.readMs = grade.times.readMs;
     reply.drawMs = grade.times.drawMs;
     reply.compareMs = grade.times.compareMs;

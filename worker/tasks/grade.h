@@ -14,6 +14,7 @@ struct GradeTask : TaskTraits {
     struct Request {
         grade::Subject reference, submission;
         PackedRubric rubric;
+        Language language = Language::en;  ///< of the texts in the JSON
     };
     struct Reply {
         std::string json;  ///< grade::toJson

@@ -1,9 +1,12 @@
 #include <catch2/catch.hpp>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "grade/report/messages.h"
 #include "grade/report/report.h"
 #include "grade/report/similarity.h"
+#include "tests/support/paths.h"
 
 // The page about a class: what it got wrong most, and who handed in the same.
 using namespace farol::grade;
@@ -82,4 +85,19 @@ TEST_CASE("the class's page counts mistakes, shows all, and escapes what student
                          Catch::Contains("&lt;rui/&gt;"));
     CHECK_THAT(page, !Catch::Contains("<script") && !Catch::Contains("House <1>") &&
                          !Catch::Contains("http://"));
+}
+
+TEST_CASE("view.js has the English words of the catalogue") {
+    std::ifstream in(std::string(farol::test::kSourceDir) + "/grade/report/view.js");
+    const std::string script{std::istreambuf_iterator<char>(in), {}};
+    int count = 0;
+    for (const farol::MessageRow& row : kReportMessages) {
+        const std::string id(row.id.substr(row.id.find('/') + 1));
+        if (id.starts_with("class-")) continue;
+        INFO(id);
+        CHECK(script.find("  '" + id + "': '" + std::string(row.text) + "',\n") !=
+              std::string::npos);
+        ++count;
+    }
+    CHECK(count > 40);
 }

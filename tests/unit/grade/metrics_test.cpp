@@ -73,7 +73,7 @@ TEST_CASE("each metric has a unique name, and its sentence and columns fit its r
         CHECK(!metric.summary.empty());
         if (metric.image() == nullptr) continue;
         CHECK(metric.image()->tolerance < metric.image()->limit);
-        CHECK(!metric.image()->sentence(0.5).empty());
+        CHECK(!metric.image()->sentence(0.5).text.empty());
         for (FramePair* pair : {&apart, &same}) {
             const Measurement measured = metric.image()->compute(*pair);
             CHECK(measured.columns.size() == metric.image()->columns.size());

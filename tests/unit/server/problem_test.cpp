@@ -1,5 +1,6 @@
 #include "server/request/problem.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "server/messages.h"
@@ -49,4 +50,21 @@ TEST_CASE("a problem lists the same missing file once, and at most 50 errors") {
     CHECK(many.at("errors").back().at("code") == "limit.diagnostics");
     CHECK(many.at("errors").back().at("message") == "83 more findings are not shown");
     CHECK_FALSE(many.at("errors").front().contains("count"));
+}
+
+TEST_CASE("a problem's texts are in the language, its title and code are not") {
+    const Problem problem = problemOf(404, message<"http.not-found/file">("name"_arg = "x.js"));
+    const http::Response response = problemResponse(problem, "r1", Language::es);
+    const json body = json::parse(response.body);
+    CHECK(body.at("detail") == "aquí no hay ningún fichero \"x.js\"");
+    CHECK(body.at("errors")[0].at("message") == body.at("detail"));
+    CHECK(body.at("title") == "Not Found");
+    CHECK(body.at("code") == "http.not-found");
+    const auto has = [&](const char* name, const char* value) {
+        return std::find(response.headers.begin(), response.headers.end(),
+                         std::pair<std::string, std::string>(name, value)) !=
+               response.headers.end();
+    };
+    CHECK(has("Content-Language", "es"));
+    CHECK(has("Vary", "Accept-Language"));
 }

@@ -11,7 +11,7 @@
 namespace farol::grade {
 
 /// An interval, both ends included.
-struct Interval {
+struct NumberRange {
     double least = 0.0, most = 1.0;
 };
 
@@ -37,7 +37,7 @@ struct Selector {
     std::optional<Curve> curve;
     /// Brightness of colours, the mean of the channels, 0..1; shininess 0..128.
     struct Look {
-        std::optional<Interval> diffuse, ambient, specular, emissive, shininess;
+        std::optional<NumberRange> diffuse, ambient, specular, emissive, shininess;
     };
     std::optional<Look> material;
     std::string turnsAbout, below, above, isNot;

@@ -36,9 +36,9 @@ class KnownIds {
 };
 
 template <typename Form>
-void describeInterval(Form& form, const std::string& key, std::optional<Interval>& interval,
+void describeInterval(Form& form, const std::string& key, std::optional<NumberRange>& interval,
                       double most, const char* about) {
-    form.maybe(key, interval, Interval{0.0, most}, about, [&](Form& inner, Interval& value) {
+    form.maybe(key, interval, NumberRange{0.0, most}, about, [&](Form& inner, NumberRange& value) {
         inner.number("least", value.least, 0, most);
         inner.number("most", value.most, 0, most);
         inner.template require<"rubric.range/least">(value.least <= value.most, "least");

@@ -124,7 +124,7 @@ Found checkMaterial(ObjectSelector& of, const Selector& select, std::size_t obje
     const Selector::Look& look = *select.material;
     struct Property {
         const char* name;
-        const std::optional<Interval>& range;
+        const std::optional<NumberRange>& range;
         double value;
     };
     const Property properties[] = {

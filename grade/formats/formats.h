@@ -32,7 +32,7 @@ struct Format {
     std::string_view limits = {};       ///< of the platform, by that page
     std::string_view environment = {};  ///< blank-separated variables that must be set
     bool isDefault = false;             ///< written without --format
-    /// Exactly one of both. ofOne: one file a submission, in a folder of its own for a class.
+    /// Exactly one of both. ofOne: one file a submission, in its own folder for a class.
     void (*ofClass)(std::ostream&, const ClassResult&) = nullptr;
     void (*ofOne)(std::ostream&, const Outcome&, const FormatContext&) = nullptr;
 };

@@ -41,7 +41,7 @@ ordered_json testOf(const OutcomePart& part, const OutcomeItem& item, const std:
     return test;
 }
 
-/// A test without points: what is said about the document as a whole, with the images.
+/// A test without points: the diagnostics of the whole document, with the images.
 ordered_json documentTest(const OutcomePart& part, const std::string& number) {
     std::string list, images;
     for (const std::string& remark : remarksOf(part)) list += listItem(remark);

@@ -59,7 +59,7 @@ struct Outcome {
 Outcome outcomeOf(const ClassResult& all, std::size_t index);
 
 /// Returns the text in UTF-8 on one line: line breaks and control characters become blanks, so that
-/// a name in a scene cannot begin a line of its own.
+/// a name in a scene cannot begin a new line.
 std::string onOneLine(const std::string& text);
 
 }  // namespace farol::grade

@@ -61,7 +61,7 @@ void writePrairieLearn(std::ostream& out, const Outcome& outcome, const FormatCo
         for (const OutcomeItem& item : part.items) result["tests"].push_back(testOf(part, item));
         for (const OutcomeImage& image : part.images) images.push_back(&image);
     }
-    // Text alone may be too long: the list of findings goes first, then what each test says of it.
+    // Text alone may be too long: the list of findings goes first, then the output of each test.
     for (const bool hasOutput : {true, false}) {
         if (!hasOutput) {
             result["output"] = message<"part.outcome/text">("max"_arg = kMaxBytes).text;

@@ -11,7 +11,7 @@ namespace {
 /// Size of the pieces of a triangle that are near, and by which a coarse mesh may stand off its
 /// surface: shares of a surface's size.
 constexpr double kPiece = 0.02;
-/// Triangles of a mesh that are looked at; models of more are taken as they are.
+/// Triangles of a mesh that is examined; larger meshes are drawn unchanged.
 constexpr std::size_t kMaxLookedAt = 4096;
 constexpr int kMaxPieceDepth = 50;  ///< of a triangle's division in four
 

@@ -143,7 +143,7 @@ int rowsOfTarget(const glm::ivec2& size, const Sampling& sampling) {
     return (size.y + bands - 1) / bands;
 }
 
-/// The depths of models that `pass` draws, so that it shades less of what they hide.
+/// Returns a pass that draws the depths of `occluders` alone: `pass` then shades fewer pixels.
 Pass depthPassOf(const Pass& pass, const std::vector<PassItem>& occluders) {
     Pass depths = pass;
     depths.target.clearColor.reset();

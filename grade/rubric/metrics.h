@@ -74,7 +74,5 @@ std::string percent(double share);
 std::string metricsMarkdown();
 /// The properties of a view in api/openapi.yaml, not indented.
 std::string metricsOpenApi();
-/// The expressions of the columns' texts in the script of the HTML report.
-std::string metricsScript();
 
 }  // namespace farol::grade

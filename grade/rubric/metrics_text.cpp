@@ -5,14 +5,6 @@
 namespace farol::grade {
 namespace {
 
-/// A number as JavaScript shows it in a template literal.
-std::string shownInScript(const MetricColumn& column, const std::string& value) {
-    const std::string number = column.format == MetricColumn::Format::percent
-                                   ? "${number(100 * " + value + ")} %"
-                                   : "${" + value + ".toFixed(3)}";
-    return std::string(column.label) + " " + number;
-}
-
 std::string appliesTo(const MetricSpec& metric) {
     return metric.appliesToPictures() ? "pictures" : "scenes";
 }
@@ -49,22 +41,6 @@ std::string metricsOpenApi() {
                (columns.size() == 1 ? "{ type: number }"
                                     : "{ type: object, properties: { " + parts + " } }") +
                "\n";
-    }
-    return out;
-}
-
-std::string metricsScript() {
-    std::string out;
-    for (const MetricSpec& metric : metrics()) {
-        if (metric.image() == nullptr) continue;
-        const auto& columns = metric.image()->columns;
-        const std::string value = "view." + std::string(metric.name);
-        const bool isObject = columns.size() > 1;
-        const std::string text = joined(columns, ", ", [&](const MetricColumn& column) {
-            return shownInScript(column, isObject ? value + "." + std::string(column.key) : value);
-        });
-        const std::string isThere = isObject ? value : value + " !== undefined";
-        out += "    " + (&metric == &mainMetric() ? "" : isThere + " && ") + "`" + text + "`,\n";
     }
     return out;
 }

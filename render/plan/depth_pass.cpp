@@ -129,13 +129,20 @@ DepthPass planDepthPass(const FramePlan& plan, int shadings, int passes) {
     DepthPass chosen;
     Estimate estimate(plan, shadings);
     double hidden = 0.0;
+    std::size_t firstFree = 0;  ///< behind the last batch that no run may span
     const std::vector<Batch>& batches = plan.batches.batches;
     for (std::size_t b = 0; b < batches.size(); ++b) {
         double saved = 0.0;
         for (std::size_t i = batches[b].first; i < batches[b].first + batches[b].count; ++i)
             saved += estimate.draw(plan.items[plan.batches.order[i]]);
         hidden += saved;
-        if (saved == 0.0 || saved < kCertainty * depthCost(plan, batches[b], shadings, passes))
+        // Depths that the shading pass writes itself may lie behind those of the mesh.
+        const bool isExact = plan.items[plan.batches.order[batches[b].first]].hasExactDepth;
+        if (isExact) firstFree = b + 1;
+        if (isExact || saved == 0.0 ||
+            saved < kCertainty * depthCost(plan, batches[b], shadings, passes))
+            continue;
+        if (chosen.occluders.size() == kMaxRuns && chosen.occluders.back().first < firstFree)
             continue;
         chosen.models += static_cast<int>(batches[b].count);
         if (!chosen.occluders.empty() &&

@@ -183,12 +183,9 @@ void composePasses(FramePlan& plan, const GlFacts& gl) {
     if (sampling.scale > 1) pass.features.add(Feature::supersampled);
     addItems(plan, pass);
     DepthPass depths;
-    // Depths that the shading pass writes itself may lie behind those of the mesh.
-    const bool isMeshDepth = std::none_of(plan.items.begin(), plan.items.end(),
-                                          [](const DrawItem& item) { return item.hasExactDepth; });
     // The GL's samples share their shading already; flat meshes have separate buffers.
-    if (style.depthFirst && isMeshDepth && sampling.samples == 1 &&
-        pass.state.polygons == Polygons::filled && !pass.features.has(Feature::flat)) {
+    if (style.depthFirst && sampling.samples == 1 && pass.state.polygons == Polygons::filled &&
+        !pass.features.has(Feature::flat)) {
         const int shadings = sampling.scale * sampling.scale * sampling.passes;
         depths = planDepthPass(plan, shadings, sampling.passes);
         plan.stats.occluders = depths.models;

@@ -16,7 +16,7 @@ constexpr const char* kRadians =
 
 }  // namespace
 
-TEST_CASE("--lang chooses the language of diagnostics; codes and keys stay English") {
+TEST_CASE("option --lang chooses the language of diagnostics; codes and keys stay English") {
     freshFolder();
     writeFile("scene.xml", kRadians);
     const auto messageIn = [](const std::string& flags) {

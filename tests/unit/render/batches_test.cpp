@@ -140,6 +140,8 @@ TEST_CASE("what is drawn by one call gives the same pixels as model by model") {
             CAPTURE(static_cast<int>(shading), static_cast<int>(layer));
             CHECK(batched.pixels == single.pixels);
             CHECK(many.drawCalls > 200);
-            if (layer != render::Layer::id) CHECK(few.drawCalls < many.drawCalls / 2);
+            if (layer != render::Layer::id)
+                CHECK(few.drawCalls <=
+                      many.drawCalls / 2);  // models close to others are drawn apart
         }
 }

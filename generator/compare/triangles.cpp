@@ -282,7 +282,8 @@ class TriangleMatcher {
         std::set<int> reported;
         for (const std::size_t t : left_)
             for (const int id : checked_.triangles[t]) {
-                if (!isOther(id) || junctions_.count(id) != 0 || !reported.insert(id).second) continue;
+                if (!isOther(id) || junctions_.count(id) != 0 || !reported.insert(id).second)
+                    continue;
                 double least = 1e300;
                 for (const glm::dvec3& at : expected_.places.all())
                     least = std::min(least, glm::length(at - placeOf(id)));

@@ -125,7 +125,7 @@ struct FrameStyle {
     scene::Specular specular = scene::Specular::single;
     bool marksNotFinite = false;  ///< pixels with NaN or infinity are magenta
     bool mergesCalls = true;      ///< of models that differ in their place alone
-    bool depthFirst = true;   ///< in a pass before the shading one, where that saves time
+    bool depthFirst = true;       ///< in a pass before the shading one, where that saves time
     glm::vec4 background{0.0F, 0.0F, 0.0F, 1.0F};
     int backgroundTexture = -1, skyboxTexture = -1;  ///< indices into FramePlan::textures
 };

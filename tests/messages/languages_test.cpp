@@ -48,9 +48,10 @@ bool hasWords(std::string text) {
 }
 
 /// Messages that are the same in English and another language: names of elements, which stay.
-const std::set<std::string_view> kEqual{"part.page/error", "part.element/rotate",      "part.element/scale",
-                                        "part.element/translate",   "part.transform/scale",
-                                        "part.transform/translate", "part.patches"};
+const std::set<std::string_view> kEqual{"part.page/error",      "part.element/rotate",
+                                        "part.element/scale",   "part.element/translate",
+                                        "part.transform/scale", "part.transform/translate",
+                                        "part.patches"};
 
 std::string listOf(const std::vector<std::string_view>& ids) {
     std::string list;

@@ -60,9 +60,6 @@ inline Diagnostic diagnosticOf(Severity severity, Message message, Location wher
 /// Holds at least one diagnostic of severity error; warnings found before it travel along.
 class Error : public std::runtime_error {
   public:
-    Error(std::string code, std::string message, Location where = {}, std::string field = {})
-        : Error(Diagnostics{{Severity::error, std::move(code), std::move(where), std::move(message),
-                             std::move(field)}}) {}
     explicit Error(Message message, Location where = {}, std::string field = {})
         : Error(Diagnostics{diagnosticOf(Severity::error, std::move(message), std::move(where),
                                          std::move(field))}) {}

@@ -45,6 +45,9 @@ inline constexpr MessageRow kGradeMessages[] = {
      "it holds {count} .xml files and none is clearly meant: {names}; hand in one of them, or call "
      "it scene.xml",
      {"2", "a.xml, b.xml"}},
+    {"image.crop",
+     "crop {crop} reaches beyond the image of {width} x {height} px; crop within it",
+     {"400x400+0+0", "300", "200"}},
     {"image.mask", "the mask leaves no pixel to compare; cover less of the image"},
     {"image.size",
      "the images are {first} and {second} px; only equal sizes are compared",

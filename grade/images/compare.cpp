@@ -120,11 +120,10 @@ image::Image crop(const image::Image& image, const Rectangle& part) {
     const auto [x, y, width, height] = part;
     if (x < 0 || y < 0 || width < 1 || height < 1 || x > image.width - width ||
         y > image.height - height)
-        throw Error("image.crop", "a crop of " + std::to_string(width) + "x" +
-                                      std::to_string(height) + "+" + std::to_string(x) + "+" +
-                                      std::to_string(y) + " reaches beyond a picture of " +
-                                      std::to_string(image.width) + "x" +
-                                      std::to_string(image.height));
+        throw Error(message<"image.crop">("crop"_arg = std::to_string(width) + "x" +
+                                                       std::to_string(height) + "+" +
+                                                       std::to_string(x) + "+" + std::to_string(y),
+                                          "width"_arg = image.width, "height"_arg = image.height));
     image::Image out{width, height, {}};
     const auto rowBytes = static_cast<std::ptrdiff_t>(width) * 4;
     for (int row = y; row < y + height; ++row) {

@@ -4,6 +4,7 @@
 #include "server/request/upload.h"
 #include "tests/fuzz/checks.h"
 #include "tests/fuzz/target.h"
+#include "tests/support/errors.h"
 
 namespace farol::fuzz {
 namespace {
@@ -12,7 +13,7 @@ class Bytes final : public server::http::Body {
   public:
     explicit Bytes(std::string bytes) : bytes_(std::move(bytes)) {}
     std::string read(std::size_t maxBytes) override {
-        if (bytes_.size() > maxBytes) throw Error("limit.body", "the body is too large");
+        if (bytes_.size() > maxBytes) throw test::errorOf("limit.body", "the body is too large");
         return std::move(bytes_);
     }
 

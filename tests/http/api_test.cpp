@@ -4,6 +4,7 @@
 #include <thread>
 
 #include "fixture.h"
+#include "tests/support/errors.h"
 
 using namespace farol;
 using namespace farol::test;
@@ -311,7 +312,7 @@ TEST_CASE("the families of codes have their statuses") {
     FakeServer server;
     std::string code;
     server.backend.onRender = [&](const render::Job&) -> render::Picture {
-        throw Error(code, "message");
+        throw test::errorOf(code, "message");
     };
     const std::vector<std::pair<const char*, int>> table = {
         {"option.range", 400},     {"xml.syntax", 400},      {"scene.empty", 422},
@@ -379,7 +380,7 @@ TEST_CASE("the folder is listed: ids, facts, and what cannot be read") {
     FakeServer server(options);
     server.backend.onInspect = [](const render::Job& job) {
         if (job.xml == "<world>plain</world>")
-            throw Error("xml.syntax", "broken here", {job.name, 1, 9});
+            throw test::errorOf("xml.syntax", "broken here", {job.name, 1, 9});
         render::SceneReport report;
         report.title = "Box";
         report.animated = true;

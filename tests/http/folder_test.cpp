@@ -11,6 +11,7 @@
 
 #include "fixture.h"
 #include "real.h"
+#include "tests/support/errors.h"
 #include "tests/support/paths.h"
 #include "worker/messages.h"
 #include "worker/pool.h"
@@ -118,7 +119,7 @@ TEST_CASE("a scene that ends its worker is one bad row of the list") {
         if (job.name == "crash.xml") throw worker::Busy(worker::message<"worker.crashed">(), 1);
         if (job.name == "late.xml") throw worker::Busy(worker::message<"busy.deadline">(), 1);
         if (job.name == "broken.xml") throw std::runtime_error("a secret of the server's");
-        if (job.name == "full.xml") throw Error("limit.memory", "It is too large.");
+        if (job.name == "full.xml") throw test::errorOf("limit.memory", "It is too large.");
         return {};
     };
     const auto rows = rowsOf(server.port());

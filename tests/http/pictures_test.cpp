@@ -5,6 +5,7 @@
 #include "fixture.h"
 #include "image/image_file.h"
 #include "real.h"
+#include "tests/support/errors.h"
 
 using namespace farol;
 using namespace farol::test;
@@ -30,7 +31,7 @@ TEST_CASE("with onerror=image a fault is a picture under its own status") {
     const TemporaryFolder folder("http-onerror");
     FakeServer server(serving(folder));
     server.backend.onRender = [](const render::Job& job) -> render::Picture {
-        throw Error("scene.empty", "nothing there", {job.name, 3, 7});
+        throw test::errorOf("scene.empty", "nothing there", {job.name, 3, 7});
     };
     const Answer plain = get(server.port(), "/v1/scenes/torch/image?onerror=problem");
     CHECK(plain.status == 422);

@@ -8,6 +8,7 @@
 #include "server/store/disk_store.h"
 #include "server/store/memory_store.h"
 #include "tests/support/archives.h"
+#include "tests/support/errors.h"
 
 using namespace farol;
 using namespace farol::test;
@@ -153,7 +154,8 @@ TEST_CASE("what cannot be kept is refused") {
     options.store = std::make_shared<server::store::MemoryStore>(server::store::StoreLimits{5'000});
     FakeServer server(options);
     server.backend.onInspect = [](const render::Job& job) -> render::SceneReport {
-        if (job.xml.find("bad") != std::string::npos) throw Error("scene.empty", "nothing there");
+        if (job.xml.find("bad") != std::string::npos)
+            throw test::errorOf("scene.empty", "nothing there");
         return {};
     };
     const struct {

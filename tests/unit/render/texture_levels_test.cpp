@@ -3,6 +3,8 @@
 #include <catch2/catch.hpp>
 #include <thread>
 
+#include "tests/support/errors.h"
+
 using namespace farol;
 using image::Image;
 using render::TextureLevels;
@@ -98,10 +100,10 @@ TEST_CASE("of several errors the first in order is thrown, whether of a head or 
         for (const int pixels : {0, 2, 4}) {
             const auto open = [&](const TextureRef& ref) {
                 const int index = std::stoi(ref.key);
-                if (index == head) throw Error("image.unreadable", "head");
+                if (index == head) throw test::errorOf("image.unreadable", "head");
                 return UndecodedTexture{1, 1, [index, pixels](std::string&) -> Image {
                                             if (index == pixels)
-                                                throw Error("image.unreadable", "pixels");
+                                                throw test::errorOf("image.unreadable", "pixels");
                                             return column(2);
                                         }};
             };

@@ -4,6 +4,8 @@
 #include <catch2/catch.hpp>
 #include <thread>
 
+#include "tests/support/errors.h"
+
 using namespace farol;
 using namespace farol::worker;
 using namespace std::chrono_literals;
@@ -41,7 +43,7 @@ int run(Pool& pool, std::function<int()> work) {
 TEST_CASE("results and exceptions come back") {
     Pool pool({4, 10s, 10s});
     CHECK(run(pool, [] { return 42; }) == 42);
-    CHECK_THROWS_AS(run(pool, []() -> int { throw Error("scene.empty", "none"); }), Error);
+    CHECK_THROWS_AS(run(pool, []() -> int { throw test::errorOf("scene.empty", "none"); }), Error);
     CHECK(run(pool, [] { return 43; }) == 43);
 }
 

@@ -2,7 +2,7 @@
 //   FAROL_BINARY=build/release/farol node tests/web/screenshots.mjs [FOLDER]
 import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { launch, openPage, root, settled, startServer } from './e2e/fixture.mjs';
+import { launch, openPage, root, settled, startServer, webp } from './e2e/fixture.mjs';
 
 const out = process.argv[2] ?? join(root, 'docs/images');
 const [server, browser] = await Promise.all([startServer(), launch()]);
@@ -50,6 +50,7 @@ const views = {
     await view.page.keyboard.press('Escape');
     await view.page.keyboard.press('ArrowLeft');
     await view.page.keyboard.insertText('x');
+    await view.page.locator('.drawer.error .drawer-tab').click();
     await view.page.locator('.findings .error').first().waitFor();
     await view.page.waitForFunction(() => document.querySelector('.code').shadowRoot.querySelector('.cm-lintRange-error'));
     if (view.page.viewportSize().width < 900) await view.page.locator('.panel').evaluate((one) => one.scrollIntoView({ block: 'end' }));
@@ -77,17 +78,6 @@ const views = {
 };
 const places = { gallery: '#/', viewer: '#/scene/solar-system', editor: '#/scene/can-and-pawns', grade: '#/grade' };
 
-/** A PNG as WebP: the browser has an encoder. */
-const webp = (page, png) => page.evaluate(async (base64) => {
-  const bitmap = await createImageBitmap(await (await fetch(`data:image/png;base64,${base64}`)).blob());
-  const canvas = new OffscreenCanvas(bitmap.width, bitmap.height);
-  canvas.getContext('2d').drawImage(bitmap, 0, 0);
-  const bytes = new Uint8Array(await (await canvas.convertToBlob({ type: 'image/webp', quality: 0.85 })).arrayBuffer());
-  let text = '';
-  for (let i = 0; i < bytes.length; i += 4096) text += String.fromCharCode(...bytes.subarray(i, i + 4096));
-  return btoa(text);
-}, png.toString('base64'));
-
 const converter = await browser.newPage();
 for (const [name, ready] of Object.entries(views))
   for (const [suffix, look] of Object.entries(looks)) {
@@ -96,7 +86,7 @@ for (const [name, ready] of Object.entries(views))
     await view.page.mouse.move(0, 0);
     await view.page.waitForTimeout(400); // fades and the overlay's last numbers
     const path = join(out, `web-${name}${suffix}.webp`);
-    writeFileSync(path, Buffer.from(await webp(converter, await view.page.screenshot()), 'base64'));
+    writeFileSync(path, await webp(converter, await view.page.screenshot()));
     console.log(path);
     await view.close();
   }

@@ -159,6 +159,12 @@ export function faultOf({ diagnostics, problem }: SceneFacts): Finding | undefin
   return found ?? (problem && { ...problem, severity: 'error' });
 }
 
+/** All findings of a stored scene; first why it cannot be rendered, where it cannot. */
+export function findingsOfFacts(facts: SceneFacts): Finding[] {
+  const fault = facts.valid ? undefined : faultOf(facts);
+  return fault ? [fault, ...facts.diagnostics.filter((one) => one !== fault)] : facts.diagnostics;
+}
+
 /** What went wrong, as findings, whatever was thrown. */
 export function findingsOf(fault: unknown): Finding[] {
   if (fault instanceof Problem) return fault.findings;

@@ -1,6 +1,7 @@
 // The address after the #: what is on show, so that it can be shared.
 //   #/                 the gallery          #/scene/ID?az=..&el=..   a scene and how it is seen
 //   #/new              a scene of one's own #/grade                  marks a class
+// Anything else is `lost`: a link that was cut off or mistyped.
 import { signal } from '@preact/signals';
 import { formatVec, parseVec } from './maths/vec.ts';
 import type { Orbit, Walk } from './maths/camera.ts';
@@ -9,6 +10,7 @@ export type Place =
   | { page: 'gallery' }
   | { page: 'grade' }
   | { page: 'new' }
+  | { page: 'lost' }
   | { page: 'scene'; id: string; view: URLSearchParams };
 
 /** What a link says of the view: all of it may be missing. */
@@ -28,12 +30,13 @@ export function parsePlace(hash: string): Place {
   const [path = '', text = ''] = hash.replace(/^#/, '').split(/\?(.*)/s);
   if (path === '/grade') return { page: 'grade' };
   if (path === '/new') return { page: 'new' };
+  if (path === '' || path === '/') return { page: 'gallery' };
   const scene = /^\/scene\/(.+)$/.exec(path);
-  if (!scene) return { page: 'gallery' };
+  if (!scene) return { page: 'lost' };
   try {
     return { page: 'scene', id: decodeURIComponent(scene[1] as string), view: new URLSearchParams(text) };
   } catch {
-    return { page: 'gallery' }; // a broken %-escape names nothing
+    return { page: 'lost' }; // a broken %-escape names nothing
   }
 }
 
@@ -90,4 +93,12 @@ addEventListener('hashchange', () => {
 /** Changes the address without a new entry in the history, and without opening anything. */
 export function replaceAddress(hash: string): void {
   if (location.hash !== hash) history.replaceState(null, '', hash);
+}
+
+/** The words that the gallery looks for. */
+export const searchWords = signal('');
+
+/** Makes the gallery look for a scene by the last part of its name. */
+export function findScene(id: string): void {
+  searchWords.value = id.replace(/^.*\//, '').replaceAll(/[-_.]+/g, ' ');
 }

@@ -1,7 +1,7 @@
 // axe-core over every view, light and dark, wide and narrow; and that nothing is wider than a phone.
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
-import { axePath, launch, openPage, settled, startServer } from './fixture.mjs';
+import { axeFindings, launch, openPage, settled, startServer } from './fixture.mjs';
 
 let server, browser;
 before(async () => {
@@ -46,13 +46,9 @@ const looks = [{ colorScheme: 'light', viewport: { width: 1280, height: 800 } },
 for (const [name, { hash, ready }] of Object.entries(views))
   test(`no serious finding of axe: ${name}`, async () => {
     for (const look of looks) {
-      // The page's policy keeps foreign scripts out; axe is one.
       const view = await openPage(browser, `${server.url}/${hash}`, { ...look, bypassCSP: true });
       await ready(view);
-      await view.page.addScriptTag({ path: axePath });
-      const { violations } = await view.page.evaluate(() => window.axe.run(document, { resultTypes: ['violations'] }));
-      const serious = violations.filter((one) => ['serious', 'critical'].includes(one.impact));
-      assert.deepEqual(serious.map((one) => `${one.id}: ${one.nodes.map((node) => node.target.join(' ')).slice(0, 4).join('; ')}`), [], `${name}, ${look.colorScheme}`);
+      assert.deepEqual(await axeFindings(view.page), [], `${name}, ${look.colorScheme}`);
       const width = await view.page.evaluate(() => document.documentElement.scrollWidth);
       assert.ok(width <= look.viewport.width, `${name} is ${width} px wide at ${look.viewport.width}`);
       await view.close();

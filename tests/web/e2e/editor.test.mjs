@@ -46,6 +46,7 @@ test('what is typed is drawn; an error marks its line and names the fix', async 
   const source = await (await fetch(`${server.url}/v1/scenes/torch/source`)).text();
   const file = /<model file="([^"]+)"/.exec(source)[1], before = await canvasPixels(view.page);
   await typeAfter(view, '<model file="', 'x');
+  await view.page.locator('.drawer.error .drawer-tab').click();
   await view.page.locator('.findings .error').first().waitFor();
   const lines = await marked(view, 'error');
   assert.equal(lines.length, 1);

@@ -10,7 +10,7 @@ import { fileURLToPath } from 'node:url';
 export const root = join(dirname(fileURLToPath(import.meta.url)), '../../..');
 const require = createRequire(join(root, 'build/web/package.json'));
 export const { chromium } = require('playwright-core');
-export const axePath = require.resolve('axe-core/axe.min.js');
+const axePath = require.resolve('axe-core/axe.min.js');
 
 export const binary = process.env.FAROL_BINARY ?? join(root, 'build/release/farol');
 
@@ -61,9 +61,19 @@ export function startProxy(target, delayOf) {
   })));
 }
 
+/** FAROL_PAGE=web/page: the page comes from that folder, so that a change of it needs no build of the program. */
+const pageFrom = (context, folder) => context.route((url) => /^\/(assets\/.*)?$/.test(url.pathname), async (route) => {
+  const name = new URL(route.request().url()).pathname.slice(1) || 'index.html', file = join(folder, name);
+  if (!existsSync(file)) return route.continue();
+  const { 'content-security-policy': policy } = (await route.fetch({ url: new URL('/', route.request().url()).href })).headers();
+  const type = { html: 'text/html', js: 'text/javascript', css: 'text/css', svg: 'image/svg+xml' }[name.split('.').pop()];
+  return route.fulfill({ path: file, headers: { 'Content-Type': type, 'Content-Security-Policy': policy } });
+});
+
 /** A page with what it asked for; an error in its script fails the test that closes it. */
 export async function openPage(browser, url, options = {}) {
   const context = await browser.newContext({ viewport: { width: 900, height: 620 }, reducedMotion: 'reduce', ...options });
+  if (process.env.FAROL_PAGE) await pageFrom(context, process.env.FAROL_PAGE);
   const page = await context.newPage();
   const faults = [], pictures = [];
   page.on('pageerror', (error) => faults.push(error.message));
@@ -168,3 +178,22 @@ export async function dropFolder(page, files, selector = 'body') {
 
 export const close = (actual, expected, tolerance, what) =>
   assert.ok(Math.abs(Number(actual) - expected) <= tolerance, `${what}: ${actual} is not ${expected}`);
+
+/** A PNG as WebP: the browser has an encoder. */
+export const webp = async (page, png, quality = 0.85) => Buffer.from(await page.evaluate(async ([base64, q]) => {
+  const bitmap = await createImageBitmap(await (await fetch(`data:image/png;base64,${base64}`)).blob());
+  const canvas = new OffscreenCanvas(bitmap.width, bitmap.height);
+  canvas.getContext('2d').drawImage(bitmap, 0, 0);
+  const bytes = new Uint8Array(await (await canvas.convertToBlob({ type: 'image/webp', quality: q })).arrayBuffer());
+  let text = '';
+  for (let i = 0; i < bytes.length; i += 4096) text += String.fromCharCode(...bytes.subarray(i, i + 4096));
+  return btoa(text);
+}, [png.toString('base64'), quality]), 'base64');
+
+/** Serious findings of axe-core; the page is opened with bypassCSP, for its policy keeps foreign scripts out. */
+export async function axeFindings(page) {
+  await page.addScriptTag({ path: axePath });
+  const { violations } = await page.evaluate(() => window.axe.run(document, { resultTypes: ['violations'] }));
+  return violations.filter((one) => ['serious', 'critical'].includes(one.impact))
+    .map((one) => `${one.id}: ${one.nodes.map((node) => node.target.join(' ')).slice(0, 4).join('; ')}`);
+}

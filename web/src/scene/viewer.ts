@@ -2,8 +2,7 @@
 // the view asks the frame loop for pictures.
 import { batch, computed, signal } from '@preact/signals';
 import {
-  faultOf, findingsOf, getScene, getSource, Problem, validate, type Finding, type ModelPlaces, type Options,
-  type SceneFacts,
+  findingsOf, findingsOfFacts, getScene, getSource, Problem, validate, type Finding, type ModelPlaces, type Options, type SceneFacts,
 } from '../api.ts';
 import { FrameLoop, type Shown } from '../frames/loop.ts';
 import { FrameRate, takeWireTime, type Latency } from '../frames/timing.ts';
@@ -11,7 +10,8 @@ import { orbitOf, walkOf, walkTarget, type LookAt, type Orbit, type Walk } from 
 import { formatView, replaceAddress, scenePlace, type ViewLink } from '../router.ts';
 import type { Loose } from './bundle.ts';
 import { SceneClock } from './clock.ts';
-import { hashText, loadDraft, saveDraft } from './drafts.ts';
+import { hashText, loadDraft, saveDraft, type Draft } from './drafts.ts';
+import { retryAfterS, sceneFaultOf, stateOf, wholeFindings, type Fault } from './state.ts';
 import { cameraOptions, qualityOptions, sizeOptions, type Quality, type StageSize } from './picture_options.ts';
 import { bodyOf, decodeFrame, fetchPicture, newSession, type Frame, type Origin } from './frame.ts';
 
@@ -44,6 +44,8 @@ export class Viewer {
   readonly hud = signal<Hud | null>(null);
   readonly still = signal<Blob | null>(null); // the last full picture
   readonly pictured = signal(false);
+  readonly fault = signal<Fault | null>(null); // of the last request; null: it gave a picture
+  readonly state = computed(() => stateOf(this.fault.value, this.pictured.value, this.findings.value));
   readonly picked = signal<{ number: number; line: number } | null>(null); // the model last clicked
   readonly reveal = signal<{ line: number; column: number } | null>(null); // a place the editor goes to
   readonly edited = computed(() => this.text.value !== null && this.text.value !== this.original.value);
@@ -62,7 +64,9 @@ export class Viewer {
   private toldAt = 0; // when the overlay was last told
   private asked = ''; // the size of the last picture that was asked for
   private closed = false;
-  private known: { text: string; facts: SceneFacts & Partial<ModelPlaces> } | null = null; // of the edited document
+  private attempts = 0; // at a server that does not answer
+  private openTimer: ReturnType<typeof setTimeout> | undefined;
+  private known: { text: string; facts: (SceneFacts & Partial<ModelPlaces>) | null; findings: readonly Finding[] } | null = null; // of the edited document
 
   constructor(readonly id: string | null, private readonly loose: Loose | null = null) {
     this.clock = new SceneClock(() => this.moved(), () => {
@@ -100,28 +104,39 @@ export class Viewer {
     if (this.id === null) {
       this.original.value = template;
       this.text.value = draft?.text ?? template;
-    } else {
-      try {
-        const facts = await getScene(this.id);
-        if (this.closed) return;
-        this.facts.value = facts;
-        this.home ??= facts.camera ?? null;
-        this.clock.range(facts.animated ?? false, facts.playFrom ?? 0, facts.loopSeconds ?? 60);
-        const fault = facts.valid ? undefined : faultOf(facts);
-        if (fault) this.findings.value = [fault, ...facts.diagnostics.filter((one) => one !== fault)];
-        if (draft || !facts.valid) {
-          await this.loadText();
-          if (draft) this.restore(draft.text, draft.base);
-        }
-      } catch (fault) {
-        this.findings.value = findingsOf(fault);
-        this.notice.value = fault instanceof Problem && fault.status === 404 ? `There is no scene “${this.id}” here.` : '';
-        return;
-      }
+    }
+    await this.begin(draft);
+  }
+
+  /** Reads the facts of a stored scene, and asks for the first picture. */
+  private async begin(draft: Draft | null): Promise<void> {
+    try {
+      if (this.id !== null) await this.readFacts(this.id, draft);
+    } catch (thrown) {
+      if (this.closed) return;
+      const fault = sceneFaultOf(thrown);
+      batch(() => {
+        this.fault.value = fault;
+        this.findings.value = [...fault.findings];
+      });
+      if (fault.kind === 'offline') this.openTimer = setTimeout(() => void this.begin(draft), 1000 * retryAfterS(this.attempts++));
+      return;
     }
     // The page takes its shape by what is known now; then a quick picture, and the full one.
     await new Promise((done) => setTimeout(done, 0));
     if (!this.closed) this.loop.move();
+  }
+
+  private async readFacts(id: string, draft: Draft | null): Promise<void> {
+    const facts = await getScene(id);
+    if (this.closed) return;
+    this.facts.value = facts;
+    this.home ??= facts.camera ?? null;
+    this.clock.range(facts.animated ?? false, facts.playFrom ?? 0, facts.loopSeconds ?? 60);
+    this.findings.value = findingsOfFacts(facts);
+    if (!draft && facts.valid) return;
+    await this.loadText();
+    if (draft) this.restore(draft.text, draft.base);
   }
 
   close(): void {
@@ -130,6 +145,7 @@ export class Viewer {
     this.loop.stop();
     clearTimeout(this.linkTimer);
     clearTimeout(this.typeTimer);
+    clearTimeout(this.openTimer);
     this.flushDraft();
   }
 
@@ -191,9 +207,21 @@ export class Viewer {
     const origin = this.origin(), { text } = origin;
     if (text === null) return this.facts.value;
     if (this.known?.text === text) return this.known.facts;
-    const facts = await validate(bodyOf(origin), this.id).catch(() => null); // what is wrong comes with the picture
-    if (facts) this.known = { text, facts };
-    return facts;
+    try {
+      const facts = await validate(bodyOf(origin), this.id);
+      this.known = { text, facts, findings: facts.diagnostics };
+      return facts;
+    } catch (fault) {
+      if (fault instanceof Problem && !fault.busy) this.known = { text, facts: null, findings: fault.findings };
+      return null;
+    }
+  }
+
+  /** All that is known to be wrong with the document on show. */
+  private documentFindings(): readonly Finding[] {
+    const { text } = this.origin();
+    if (text !== null) return this.known?.text === text ? this.known.findings : [];
+    return this.facts.value ? findingsOfFacts(this.facts.value) : [];
   }
 
   /** After an edit: the animation, the camera and the counts may be others. */
@@ -201,7 +229,9 @@ export class Viewer {
     const { text } = this.origin();
     if (text === null || this.known?.text === text) return;
     const facts = await this.validated();
-    if (!facts || this.origin().text !== text) return;
+    if (this.origin().text !== text) return;
+    if (this.latest) this.setFindings(wholeFindings(this.documentFindings(), this.latest.findings));
+    if (!facts) return;
     batch(() => {
       const links = this.facts.value?.links ?? { self: '', source: '', image: '', thumbnail: '' };
       this.facts.value = { ...facts, id: this.id ?? '', links };
@@ -257,8 +287,10 @@ export class Viewer {
     const now = performance.now();
     if (moving) this.rate.add(now);
     else this.rate.clear();
+    this.attempts = 0;
     batch(() => {
       this.pictured.value = true;
+      this.fault.value = null;
       // Numbers that change with every frame cannot be read, and cost as much as the frame.
       if (!moving || now - this.toldAt >= hudEveryMs) {
         this.toldAt = now;
@@ -268,7 +300,7 @@ export class Viewer {
         };
       }
       if (!moving) this.still.value = picture.blob;
-      this.setFindings(picture.findings);
+      this.setFindings(wholeFindings(this.documentFindings(), picture.findings));
     });
     if (picture.camera && !this.home) this.home = picture.camera;
     this.latest?.bitmap.close();
@@ -283,8 +315,20 @@ export class Viewer {
       return wait * 1000;
     }
     this.clock.stop();
-    this.setFindings(findingsOf(fault));
+    const kept = sceneFaultOf(fault);
+    this.fault.value = kept;
+    if (kept.kind === 'offline') return 1000 * retryAfterS(this.attempts++);
+    this.setFindings([...kept.findings]);
     return null;
+  }
+
+  /** Asks a server that did not answer once more, without waiting. */
+  askAgain(): void {
+    this.attempts = 0;
+    if (this.facts.value === null && this.id !== null) {
+      clearTimeout(this.openTimer);
+      void this.begin(loadDraft(this.id));
+    } else this.loop.settle();
   }
 
   private setFindings(found: Finding[]): void {

@@ -7,6 +7,7 @@ import { local, openFiles, uploading, uploadProblem } from '../upload.ts';
 import { filesOf } from '../files.ts';
 import { lazyView } from './lazy.tsx';
 import { Gallery } from './gallery.tsx';
+import { GonePage } from './gone.tsx';
 import { Mark } from './icons.tsx';
 import { Findings, Toast, Tool } from './ui.tsx';
 import { TokenDialog } from './token_dialog.tsx';
@@ -92,6 +93,7 @@ export function App() {
         <ViewerPage key={id ?? `new ${local.value?.count ?? 0}`} id={id} view={where.page === 'scene' ? where.view : new URLSearchParams()} />
       )}
       {where.page === 'grade' && <GradePage />}
+      {where.page === 'lost' && <GonePage />}
       <UploadNote />
       <TokenDialog />
       <Toast />

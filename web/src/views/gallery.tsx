@@ -2,7 +2,7 @@
 import { signal } from '@preact/signals';
 import { useEffect, useRef, useState } from 'preact/hooks';
 import { faultOf, findingsOf, listScenes, sentence, type SceneFacts } from '../api.ts';
-import { scenePlace } from '../router.ts';
+import { scenePlace, searchWords as words } from '../router.ts';
 import { thumbnail } from '../thumbnails.ts';
 import { pickFiles } from '../upload.ts';
 import { Icon } from './icons.tsx';
@@ -15,7 +15,6 @@ interface Listing {
   total: number;
 }
 
-const words = signal('');
 const listing = signal<Listing | null>(null);
 const problem = signal('');
 const loading = signal(false);

@@ -4,8 +4,8 @@ import type { Latency } from '../frames/timing.ts';
 import type { Viewer } from '../scene/viewer.ts';
 import { recall, remember } from '../storage.ts';
 
-// It would cover a small picture: there it is shown when asked for.
-export const hudShown = signal(recall('hud') === 'on' || (recall('hud') !== 'off' && matchMedia('(min-width: 40rem)').matches));
+// Numbers for those who ask for them: they would cover the picture.
+export const hudShown = signal(recall('hud') === 'on');
 export const cullingShown = signal(false);
 
 export function showHud(on: boolean): void {

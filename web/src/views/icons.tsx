@@ -21,6 +21,12 @@ const paths = {
   moon: 'M19.500 14.500A8 8 0 0 1 9.500 4.500a8 8 0 1 0 10 10z',
   fullscreen: 'M4 9V4h5M20 9V4h-5M4 15v5h5M20 15v5h-5',
   plus: 'M12 5v14M5 12h14',
+  up: 'm6 15 6-6 6 6',
+  down: 'm6 9 6 6 6-6',
+  error: 'M8.500 3.500h7l5 5v7l-5 5h-7l-5-5v-7zM12 8v5M12 16v.2',
+  warning: 'M12 4 3 19.500h18zM12 10v4.500M12 17v.2',
+  offline: 'M3 3l18 18M5 12.500a10 10 0 0 1 4-2.300M19 12.500a10 10 0 0 0-6-2.800M8.500 16a5 5 0 0 1 7 0M12 19.500v.2',
+  lost: 'M12 21s-6.500-6-6.500-11a6.500 6.500 0 0 1 13 0c0 5-6.500 11-6.500 11zM10 8.500l4 4M14 8.500l-4 4',
 } as const;
 
 export type IconName = keyof typeof paths;

@@ -42,7 +42,7 @@ export function Stage({ viewer, actions }: { viewer: Viewer; actions: Actions })
   }, [viewer]);
   const title = viewer.facts.value?.title || 'Your scene';
   return (
-    <div class="stage" ref={stage} tabIndex={0} role="application" aria-label={`${title}. ${help}`} aria-busy={!viewer.pictured.value}>
+    <div class="stage" ref={stage} tabIndex={0} role="application" aria-label={`${title}. ${help}`} aria-busy={viewer.state.value === 'loading'}>
       <canvas ref={canvas} role="img" aria-label={`Picture of ${title}`} class={viewer.pictured.value ? '' : 'blank'} width={16} height={9} />
       <HudView viewer={viewer} />
       {viewer.lightMode.value && <LightNote viewer={viewer} />}

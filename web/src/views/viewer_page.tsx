@@ -2,15 +2,17 @@
 import { signal } from '@preact/signals';
 import { lazyView } from './lazy.tsx';
 import { useEffect, useMemo } from 'preact/hooks';
+import type { Finding } from '../api.ts';
 import { parseView } from '../router.ts';
 import { local } from '../upload.ts';
 import { Viewer } from '../scene/viewer.ts';
 import { newScene } from '../scene/template.ts';
 import { recall, remember } from '../storage.ts';
+import { GonePage } from './gone.tsx';
 import { focusStage, Stage } from './stage.tsx';
+import { FindingsDrawer, Notice, StageState } from './stage_state.tsx';
 import { TimeBar } from './time_bar.tsx';
 import { Toolbar } from './toolbar.tsx';
-import { Findings } from './ui.tsx';
 import { ViewPanel } from './view_panel.tsx';
 
 export type PanelName = 'none' | 'view' | 'inspect' | 'xml';
@@ -89,13 +91,18 @@ export function ViewerPage({ id, view }: { id: string | null; view: URLSearchPar
   // The keys are the picture's: a click on a tool gives them back to it, the keyboard's own way stays as it is.
   const keysBack = (event: MouseEvent): void => {
     const at = event.target as Element;
-    if (event.detail === 0 || at.closest('input, select, textarea, a, dialog, .below') || !(getSelection()?.isCollapsed ?? true)) return;
+    if (event.detail === 0 || at.closest('input, select, textarea, a, dialog, .drawer, .state-card') || !(getSelection()?.isCollapsed ?? true)) return;
     focusStage();
   };
   const light = async (alpha: number, beta: number): Promise<void> => {
     const { turnLight } = await import('../scene/camera_light.ts');
     await turnLight(viewer, alpha, beta);
   };
+  const showFinding = (finding: Finding): void => {
+    openPanel('xml');
+    viewer.reveal.value = { line: finding.line ?? 1, column: finding.column ?? 1 };
+  };
+  if (id !== null && viewer.state.value === 'gone' && !viewer.pictured.value) return <GonePage id={id} />;
   return (
     <main class={panel.value === 'none' ? 'viewer' : 'viewer with-panel'} id="main">
       <div class="view" onClick={keysBack}>
@@ -104,20 +111,15 @@ export function ViewerPage({ id, view }: { id: string | null; view: URLSearchPar
           {facts?.description && <p title={facts.description}>{facts.description}</p>}
         </div>
         <Toolbar viewer={viewer} />
-        <Stage viewer={viewer} actions={{ pick: (x, y) => void pick(x, y), light: (a, b) => void light(a, b) }} />
-        <TimeBar viewer={viewer} />
-        <div class="below" aria-live="polite">
-          {viewer.notice.value && (
-            <p class="notice">
-              {viewer.notice.value}
-              {viewer.edited.value && <button type="button" class="link" onClick={() => viewer.discardEdits()}>Discard the edits</button>}
-            </p>
-          )}
-          <Findings findings={viewer.findings.value} onPick={(finding) => {
-            openPanel('xml');
-            viewer.reveal.value = { line: finding.line ?? 1, column: finding.column ?? 1 };
-          }} />
+        <div class={`stage-area is-${viewer.state.value}`}>
+          <Stage viewer={viewer} actions={{ pick: (x, y) => void pick(x, y), light: (a, b) => void light(a, b) }} />
+          <div class="stage-notes">
+            <StageState viewer={viewer} onPick={showFinding} />
+            <Notice viewer={viewer} />
+          </div>
+          <FindingsDrawer viewer={viewer} onPick={showFinding} />
         </div>
+        <TimeBar viewer={viewer} />
       </div>
       <Panel viewer={viewer} />
     </main>

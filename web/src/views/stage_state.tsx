@@ -1,0 +1,95 @@
+// What lies over the picture to say how it stands with the scene: each state of its own look.
+import { signal } from '@preact/signals';
+import { useEffect } from 'preact/hooks';
+import type { Finding } from '../api.ts';
+import { countFindings } from '../scene/state.ts';
+import type { Viewer } from '../scene/viewer.ts';
+import { Icon } from './icons.tsx';
+import { Findings } from './ui.tsx';
+
+const drawerOpen = signal(false);
+
+const plural = (n: number, one: string): string => `${n} ${one}${n === 1 ? '' : 's'}`;
+
+/** "2 errors, 1 warning" */
+export function countsText(findings: readonly Finding[]): string {
+  const { errors, warnings } = countFindings(findings);
+  return [errors && plural(errors, 'error'), warnings && plural(warnings, 'warning')].filter(Boolean).join(', ');
+}
+
+/** The findings, over the lower edge of the picture: it keeps its size when there are some. */
+export function FindingsDrawer({ viewer, onPick }: { viewer: Viewer; onPick: (finding: Finding) => void }) {
+  const findings = viewer.findings.value, state = viewer.state.value, counts = countsText(findings);
+  const broken = state === 'incomplete' && !viewer.edited.value;
+  // A scene that opens with errors shows them; who edits has them in the editor, and is not covered by them.
+  useEffect(() => {
+    if (broken) drawerOpen.value = true;
+  }, [viewer, broken]);
+  useEffect(() => () => void (drawerOpen.value = false), [viewer]);
+  if (!counts) return null;
+  const { errors } = countFindings(findings), open = drawerOpen.value;
+  return (
+    <section class={`drawer ${errors > 0 ? 'error' : 'warning'}`} aria-label="Findings of the scene">
+      <button type="button" class="drawer-tab" aria-expanded={open} aria-controls="drawer-body" onClick={() => (drawerOpen.value = !open)}>
+        <Icon name={errors > 0 ? 'error' : 'warning'} /><span>{counts}</span><Icon name={open ? 'down' : 'up'} />
+      </button>
+      <div class="drawer-body" id="drawer-body" hidden={!open}><Findings findings={findings} onPick={onPick} /></div>
+    </section>
+  );
+}
+
+/** Speaks of what is wrong, and what can be done about it. */
+export function StageState({ viewer, onPick }: { viewer: Viewer; onPick: (finding: Finding) => void }) {
+  const state = viewer.state.value, pictured = viewer.pictured.value, findings = viewer.findings.value;
+  const again = <button type="button" class="button small" onClick={() => viewer.askAgain()}>Try now</button>;
+  if (state === 'failed' && !pictured)
+    return (
+      <div class="state-card failed" role="alert">
+        <Icon name="error" />
+        <h2>This scene cannot be drawn</h2>
+        <Findings findings={findings.slice(0, 3)} onPick={onPick} />
+        {findings.length > 3 && <p class="note">And {findings.length - 3} more, in the list below.</p>}
+      </div>
+    );
+  if (state === 'failed')
+    return (
+      <p class="state-note failed" role="status">
+        <Icon name="error" /><span>This cannot be drawn. The image is of the last version that could be.</span>
+      </p>
+    );
+  if (state === 'offline')
+    return (
+      <div class={pictured ? 'state-note offline' : 'state-card offline'} role="status">
+        <Icon name="offline" /><span>The server does not answer. It is asked again every few seconds.</span>{again}
+      </div>
+    );
+  if (state === 'gone')
+    return (
+      <div class="state-note failed" role="alert">
+        <Icon name="lost" /><span>This scene is not on the server any more. The image is the last one that it sent.</span>
+        <a class="button small" href="#/">All scenes</a>
+      </div>
+    );
+  if (state === 'incomplete')
+    return (
+      <p class="state-note incomplete" role="status">
+        <Icon name="error" /><span>Incomplete: placeholders stand for what has errors.</span>
+      </p>
+    );
+  if (state === 'loading') return <p class="state-note loading" role="status"><span>Drawing…</span></p>;
+  return null;
+}
+
+/** What was done without being asked for, and how to take it back. */
+export function Notice({ viewer }: { viewer: Viewer }) {
+  return (
+    <div class="notice-place" aria-live="polite">
+      {viewer.notice.value && (
+        <p class="state-note notice">
+          <span>{viewer.notice.value}</span>
+          {viewer.edited.value && <button type="button" class="link" onClick={() => viewer.discardEdits()}>Discard the edits</button>}
+        </p>
+      )}
+    </div>
+  );
+}

@@ -9,6 +9,7 @@
 #include "cli/confine.h"
 #include "cli/deadline.h"
 #include "cli/files.h"
+#include "cli/heap.h"
 #include "cli/messages.h"
 #include "cli/source.h"
 #include "core/text.h"
@@ -18,6 +19,9 @@
 
 namespace farol::cli {
 namespace {
+
+/// Of the process that draws, where it may have as much: it holds most first images.
+constexpr int kHeapBytes = 64 << 20;
 
 struct Flags {
     std::string scene, output, assets;
@@ -76,6 +80,8 @@ void printMissing(const worker::Layers& layers) {
 }
 
 int draw(const Flags& flags, const render::Job& job, Report& report, Outputs& outputs) {
+    if (flags.confinement.memoryMiB == 0 || flags.confinement.memoryMiB >= 1'024)
+        growHeap(kHeapBytes);
     Deadline deadline(flags.deadlineS, report, job.name);
     render::Picture picture;
     if (flags.animation.isAnyGiven()) {

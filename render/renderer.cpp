@@ -1,7 +1,9 @@
 #include "render/renderer.h"
 
 #include <cctype>
+#include <future>
 #include <map>
+#include <optional>
 #include <set>
 
 #include "core/stopwatch.h"
@@ -22,6 +24,7 @@
 #include "render/plan/texture_levels.h"
 #include "render/plan/visibility.h"
 #include "render/prepare.h"
+#include "render/texture_prefetch.h"
 #include "scene/animation.h"
 #include "scene/loop.h"
 
@@ -152,9 +155,15 @@ Diagnostics checkSurroundings(const scene::Scene& scene, const PictureOptions& o
 }  // namespace
 
 struct Renderer::State {
-    explicit State(GlSource source) : painter(gl::createContext(source)) {}
+    explicit State(GlSource from)
+        : source(from), library(std::async(std::launch::async, gl::loadLibraries, from)) {}
 
-    gl::Painter painter;
+    const GlSource source;
+    std::future<void> library;  ///< of the GL: it is loaded beside other work
+    std::optional<gl::Painter> made;
+    /// Waits for the GL's library the first time.
+    gl::Painter& painter();
+
     MeshLibrary meshes{kMeshBytes};
     PreparedCache scenes{kScenes};
     CostBudget budget;
@@ -165,6 +174,14 @@ struct Renderer::State {
     Picture draw(const Prepared& prepared, const Placed& placed, const Job& job, image::Image& out,
                  double parseMs);
 };
+
+gl::Painter& Renderer::State::painter() {
+    if (!made) {
+        library.wait();
+        made.emplace(gl::createContext(source));
+    }
+    return *made;
+}
 
 const Placed& Renderer::State::placed(const std::shared_ptr<const Prepared>& prepared,
                                       const Job& job) {
@@ -180,7 +197,7 @@ const Placed& Renderer::State::placed(const std::shared_ptr<const Prepared>& pre
 Renderer::Renderer(GlSource source) : state_(std::make_unique<State>(source)) {}
 Renderer::~Renderer() = default;
 CostBudget& Renderer::budget() { return state_->budget; }
-const GlFacts& Renderer::gl() const { return state_->painter.facts(); }
+const GlFacts& Renderer::gl() const { return state_->painter().facts(); }
 Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 
@@ -211,8 +228,11 @@ Picture Renderer::State::draw(const Prepared& prepared, const Placed& placed, co
     picture.quality = resolveBudget(options, prepared.scene, placed);
     Skipping skipping = job.drawUnseen ? Skipping{false, false, false, false, false} : Skipping{};
     skipping.notFinite = !job.markNotFinite;
-    FramePlan frame =
-        plan(prepared.scene, placed, options, *prepared.assets, meshes, painter.facts(), skipping);
+    const auto openFile = [&](const TextureRef& ref) { return openTexture(ref, *prepared.assets); };
+    std::optional<TexturePrefetch> prefetch;
+    if (!made) prefetch.emplace(placed.scene.textures, openFile);
+    FramePlan frame = plan(prepared.scene, placed, options, *prepared.assets, meshes,
+                           painter().facts(), skipping);
     budget.spend(frame);
     picture.camera = frame.camera;
     takeFindings(picture.diagnostics, frame.findings, job);
@@ -220,8 +240,9 @@ Picture Renderer::State::draw(const Prepared& prepared, const Placed& placed, co
 
     gl::Painter::Timings timings;
     Diagnostics warnings;  // about textures
-    painter.draw(
-        frame, [&](const TextureRef& ref) { return openTexture(ref, *prepared.assets); }, out,
+    painter().draw(
+        frame,
+        [&](const TextureRef& ref) { return prefetch ? prefetch->open(ref) : openFile(ref); }, out,
         frame.stats.drawCalls, timings, warnings);
     takeFindings(picture.diagnostics, warnings, job);
     if (isBlank(frame, out))

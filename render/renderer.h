@@ -85,7 +85,8 @@ struct SceneReport {
 /// its own. Caches change the time taken, never the bytes.
 class Renderer {
   public:
-    /// Throws std::runtime_error where this machine has no such GL.
+    /// Begins to load the GL's libraries. The first call of another function makes the GL context,
+    /// for its thread, and throws std::runtime_error where this machine has no such GL.
     explicit Renderer(GlSource source = GlSource::automatic);
     ~Renderer();
     Renderer(Renderer&&) noexcept;

@@ -46,11 +46,15 @@ GlSource resolveSource(GlSource source) {
     return open(kOsMesaLibrary) != nullptr ? GlSource::osmesa : GlSource::egl;
 }
 
-std::string buildIdFor(GlSource source) {
+void loadLibraries(GlSource source) {
     if (resolveSource(source) == GlSource::osmesa)
         open(kOsMesaLibrary);
     else
         loadEglDriver();
+}
+
+std::string buildIdFor(GlSource source) {
+    loadLibraries(source);
     return buildIdWith({"libOSMesa", "libEGL_mesa", "libgallium", "swrast_dri", "libLLVM"});
 }
 

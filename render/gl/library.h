@@ -32,6 +32,9 @@ class Library {
 /// is found, else EGL.
 GlSource resolveSource(GlSource source);
 
+/// Loads the libraries that draw for `source`, where they are installed.
+void loadLibraries(GlSource source);
+
 /// 16 hexadecimal digits that change with the program (buildId) and with the libraries that draw
 /// for `source`: Mesa's and LLVM. Loads them. Where there are none, those of the program alone.
 std::string buildIdFor(GlSource source);

@@ -12,8 +12,6 @@ namespace farol::render {
 namespace {
 
 constexpr std::size_t kMaxThreads = 8;
-/// Of images that are decoded at once, with up to 14 bytes a pixel. A larger one is decoded alone.
-constexpr std::int64_t kMaxPixelsAtOnce = 16 << 20;
 
 void flipVertically(image::Image& image) {
     const auto stride = static_cast<std::ptrdiff_t>(image.width) * 4;

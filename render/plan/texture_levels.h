@@ -49,6 +49,9 @@ struct UndecodedTexture {
 /// Reads an image's file and its head. May throw Error asset.*, image.*, limit.*.
 using OpenTexture = std::function<UndecodedTexture(const TextureRef&)>;
 
+/// Of images that are decoded at once, with up to 14 bytes a pixel. A larger one is decoded alone.
+inline constexpr std::int64_t kMaxPixelsAtOnce = 16 << 20;
+
 /// Callbacks of loadTextures, called in the caller's thread.
 struct TextureLoading {
     /// For each texture in their order, before it is decoded.

@@ -1,0 +1,81 @@
+#include "render/texture_prefetch.h"
+
+#include <atomic>
+#include <catch2/catch.hpp>
+
+#include "tests/support/errors.h"
+
+using namespace farol;
+using image::Image;
+using render::TexturePrefetch;
+using render::TextureRef;
+using render::UndecodedTexture;
+
+namespace {
+
+TextureRef refOf(const std::string& key) {
+    TextureRef ref;
+    ref.key = ref.path = key;
+    return ref;
+}
+
+/// Files of one size, whose openings and decodings are counted.
+struct Files {
+    int width = 1, height = 1;
+    int opened = 0;
+    std::atomic<int> decoded = 0;
+
+    UndecodedTexture open(const TextureRef& ref) {
+        ++opened;
+        if (ref.key == "absent") throw test::errorOf("asset.missing", "absent");
+        return {width, height, [this, key = ref.key](std::string& damage) {
+                    ++decoded;
+                    if (key == "broken") throw test::errorOf("image.unreadable", "broken");
+                    damage = "cut off";
+                    return Image{1, 1, {7, 8, 9, 255}};
+                }};
+    }
+};
+
+}  // namespace
+
+TEST_CASE("an image is decoded before its plan, once") {
+    Files files;
+    const std::vector<TextureRef> refs{refOf("a"), refOf("a")};
+    TexturePrefetch prefetch(refs, [&](const TextureRef& ref) { return files.open(ref); });
+    const UndecodedTexture texture = prefetch.open(refs[0]);
+    CHECK(texture.width == 1);
+    std::string damage;
+    CHECK(texture.decode(damage).pixels == std::vector<std::uint8_t>{7, 8, 9, 255});
+    CHECK(damage == "cut off");
+    CHECK(files.opened == 1);
+    CHECK(files.decoded == 1);
+    // The second time it is decoded anew.
+    prefetch.open(refs[1]).decode(damage);
+    CHECK(files.decoded == 2);
+}
+
+TEST_CASE("faults of images that are decoded early appear where the images are used") {
+    Files files;
+    const std::vector<TextureRef> refs{refOf("absent"), refOf("broken")};
+    TexturePrefetch prefetch(refs, [&](const TextureRef& ref) { return files.open(ref); });
+    CHECK_THROWS_AS(prefetch.open(refs[0]), Error);
+    const UndecodedTexture broken = prefetch.open(refs[1]);
+    std::string damage;
+    CHECK_THROWS_AS(broken.decode(damage), Error);
+    CHECK(files.decoded == 1);
+}
+
+TEST_CASE("images over the bound of pixels at once, and chess boards, are not decoded early") {
+    Files files;
+    files.width = files.height = 4097;
+    std::vector<TextureRef> refs{refOf("wide"), refOf("chess")};
+    refs[1].chess.emplace();
+    {
+        const std::vector<TextureRef> chess{refs[1]};
+        TexturePrefetch none(chess, [&](const TextureRef& ref) { return files.open(ref); });
+        CHECK(files.opened == 0);
+    }
+    TexturePrefetch prefetch(refs, [&](const TextureRef& ref) { return files.open(ref); });
+    CHECK(files.decoded == 0);
+}

@@ -2,7 +2,7 @@
 
 A frame's CPU time on all cores is modelled as fixed + pixels * fill(samples) + triangles *
 cost(samples), by least squares of relative errors with nothing negative. The order of candidates is
-that of mean FLIP over the scenes; one that costs more than a better one is left out.
+that of mean FLIP over the scenes; one that is not better than a cheaper one is left out.
 """
 
 import math
@@ -68,7 +68,7 @@ def order(data):
               for key, v in found.items() if len(v) >= scenes]
     kept, best = [], math.inf
     for _, flip, key in sorted(points):
-        if flip < best:
+        if flip < 0.99 * best:  # less is no gain
             best = flip
             kept.append((key, flip))
     chain = []  # neither of the two gets better as the budget shrinks

@@ -253,8 +253,8 @@ std::vector<OptionSpec> makeSpecs() {
         word("filter", &O::filter, wordsOf(scene::kFilterWords), "texture filter; default mipmap"),
         number("error", &O::errorPx, 0.01, 64, "px",
                "tessellation on demand: greatest error; default 0.25",
-               "It also chooses the default of aa: 1 sample from 1 px on, 8 from 0.08 px down, 16 "
-               "from 0.03."),
+               "It also chooses the default of aa: 1 sample above 2 px, 8 from 0.125 px down, 16 "
+               "from 0.0625."),
         number("budget_ms", &O::budgetMs, 0.1, 60000, "ms",
                "chooses aa and error, where they are not given, by the expected time of a frame",
                "No clock is read: the same request gives the same bytes. X-Farol-Quality has what "

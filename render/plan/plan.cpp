@@ -14,6 +14,7 @@
 #include "render/plan/lines.h"
 #include "render/plan/messages.h"
 #include "render/plan/passes.h"
+#include "render/plan/quality.h"
 #include "render/plan/sampling.h"
 #include "scene/animation.h"
 
@@ -21,12 +22,6 @@ namespace farol::render {
 namespace {
 
 constexpr int kDefaultSide = 512;
-/// Returns the samples where neither scene nor request sets them: 4; one if outlines may err by a
-/// pixel, more if they err by less than a twelfth of one.
-int defaultSamples(double errorPx) {
-    return errorPx >= 1.0 ? 1 : errorPx > 0.08 ? 4 : errorPx > 0.03 ? 8 : 16;
-}
-
 // Where the third-person camera holds its entity: in front of the eye, in eye space.
 constexpr glm::dvec3 kEntityPlace{0.0, 0.0, -3.0};
 // Half the diagonal of a sheared box is at most sqrt(3) times the root of its squared edges.
@@ -108,7 +103,7 @@ class Planner {
   private:
     void chooseStyle(const InstanceList& list) {
         style_.samples =
-            options_.samples.value_or(scene_.settings.samples.value_or(defaultSamples(errorPx_)));
+            options_.samples.value_or(scene_.settings.samples.value_or(samplesFor(errorPx_)));
         style_.shading = options_.shading          ? *options_.shading
                          : scene_.settings.shading ? *scene_.settings.shading
                                                    : automaticShading(scene_, list);

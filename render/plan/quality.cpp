@@ -51,6 +51,12 @@ double expectedMs(const FrameLoad& load, int samples, double errorPx) {
            1e-6 * triangles * cost.msPerMegatriangle;
 }
 
+int samplesFor(double errorPx) {
+    const auto found = std::find_if(  // best first
+        kFront.begin(), kFront.end(), [&](const Candidate& one) { return one.errorPx >= errorPx; });
+    return found == kFront.end() ? kFront.back().samples : found->samples;
+}
+
 Quality chooseQuality(double budgetMs, const FrameLoad& load, std::optional<int> samples,
                       std::optional<double> errorPx) {
     Quality chosen;

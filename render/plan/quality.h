@@ -24,6 +24,10 @@ struct FrameLoad {
 /// Expected time of a frame, ms; `samples` 1, 2, 4, 8 or 16.
 double expectedMs(const FrameLoad& load, int samples, double errorPx);
 
+/// Samples a pixel that the front has with meshes of this error: those of its best setting that is
+/// no finer, else of its cheapest. The default of `aa`.
+int samplesFor(double errorPx);
+
 /// Returns the best quality of the front within `budgetMs`, else its cheapest. Keeps given values.
 /// A larger budget never gives a worse one: samples and error are chosen along one order.
 Quality chooseQuality(double budgetMs, const FrameLoad& load, std::optional<int> samples,

@@ -52,6 +52,22 @@ TEST_CASE("a larger budget never chooses worse, a heavier scene never better") {
     CHECK_FALSE(chooseQuality(0.1, kLoads[3], {}, {}).within);
 }
 
+TEST_CASE("an error has the samples of the front, as documented") {
+    // These numbers are in the text of the option `error` and in docs/explanation/accuracy.md.
+    for (const auto& [errorPx, samples] : std::vector<std::pair<double, int>>{{64, 1},
+                                                                              {2.01, 1},
+                                                                              {2, 4},
+                                                                              {0.25, 4},
+                                                                              {0.126, 4},
+                                                                              {0.125, 8},
+                                                                              {0.063, 8},
+                                                                              {0.0625, 16},
+                                                                              {0.01, 16}}) {
+        CAPTURE(errorPx);
+        CHECK(samplesFor(errorPx) == samples);
+    }
+}
+
 TEST_CASE("more of anything is expected to take longer") {
     const FrameLoad load = kLoads[1];
     const double ms = expectedMs(load, 4, 0.25);

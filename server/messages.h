@@ -125,7 +125,7 @@ inline constexpr MessageRow kServerMessages[] = {
      "allowed-hosts \"{value}\" is not a host; expected host names or addresses such as "
      "farol.example, 127.0.0.1 or [::1]:8080",
      {"http://x"}},
-    {"option.range/base", "base= needs a document that comes alone, without files"},
+    {"option.range/base", "base= needs a document, alone or in a form; an archive is none"},
     {"option.range/base-path",
      "--base-path is \"{value}\"; expected a path such as /farol, of letters, digits, - . _ ~ and "
      "/",
@@ -150,6 +150,7 @@ inline constexpr MessageRow kServerMessages[] = {
      {"port", "70000", "0", "65535"}},
     {"option.range/session",
      "the session is not 1 to 64 letters, digits, \"-\", \".\" or \"_\"; seq needs a session"},
+    {"option.range/without", "a form has a part \"without\" only where base= names a scene"},
     {"option.range/words",
      "{name} is \"{value}\"; expected {known}",
      {"onerror", "page", "image or problem"}},

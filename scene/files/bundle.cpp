@@ -141,40 +141,77 @@ std::string mainOf(const Assets& files) {
 
 namespace {
 
-std::vector<std::string> namedFiles(const Assets& files, const std::vector<std::string>& paths) {
-    const std::vector<std::string> documents = documentsOf(files, paths);
-    std::set<std::string> names, taken(documents.begin(), documents.end());
-    for (const std::string& path : documents) addNames(files.read(path).value_or(""), names);
-    // Meshes name libraries, which name pictures.
-    for (int round = 0; round < 3; ++round) {
-        std::vector<std::string> fresh;
-        for (const std::string& path : paths) {
-            if (isDocument(path) || taken.count(path) != 0) continue;
-            bool isNamed = names.count(spelling::folded(baseName(path))) != 0;
-            for (const std::string& other : spelling::otherReadings(baseName(path)))
-                isNamed = isNamed || names.count(spelling::folded(other)) != 0;
-            if (isNamed) fresh.push_back(path);
+/// The names that documents, meshes and libraries hold, and the files that bear them.
+class NamedFiles {
+  public:
+    NamedFiles(const Assets& files, const std::vector<std::string>& paths)
+        : files_(files), paths_(paths) {}
+
+    /// Adds the files that `begin` name, those that these name, and so on. Documents among them are
+    /// read whole, of meshes their beginning.
+    void follow(std::vector<std::string> begin, bool throughDocuments) {
+        taken_.insert(begin.begin(), begin.end());
+        readNames(begin);
+        // Documents include documents; meshes name libraries, which name images.
+        constexpr int kMaxRounds = 4;
+        for (int round = 0; round < kMaxRounds; ++round) {
+            std::vector<std::string> fresh;
+            for (const std::string& path : paths_)
+                if (taken_.count(path) == 0 && (throughDocuments || !isDocument(path)) &&
+                    isNamed(path))
+                    fresh.push_back(path);
+            taken_.insert(fresh.begin(), fresh.end());
+            std::erase_if(fresh, [](const std::string& path) {
+                return !isDocument(path) && fileEnding(path) != "obj" && fileEnding(path) != "mtl";
+            });
+            if (fresh.empty()) break;
+            readNames(fresh);
         }
-        taken.insert(fresh.begin(), fresh.end());
-        std::erase_if(fresh, [](const std::string& path) {
-            return fileEnding(path) != "obj" && fileEnding(path) != "mtl";
-        });
-        if (fresh.empty()) break;
-        files.prefetch(fresh);
-        for (const std::string& path : fresh)
-            addNames(files.read(path).value_or("").substr(0, kMeshHead), names);
     }
-    return {taken.begin(), taken.end()};
-}
+    const std::set<std::string>& taken() const { return taken_; }
+
+  private:
+    bool isNamed(const std::string& path) const {
+        if (names_.count(spelling::folded(baseName(path))) != 0) return true;
+        const auto others = spelling::otherReadings(baseName(path));
+        return std::any_of(others.begin(), others.end(), [&](const std::string& other) {
+            return names_.count(spelling::folded(other)) != 0;
+        });
+    }
+    void readNames(const std::vector<std::string>& fresh) {
+        files_.prefetch(fresh);
+        for (const std::string& path : fresh) {
+            if (isDocument(path) && files_.size(path).value_or(0) > kMaxDocumentBytes) continue;
+            const std::string content = files_.read(path).value_or("");
+            addNames(isDocument(path) ? content : content.substr(0, kMeshHead), names_);
+        }
+    }
+
+    const Assets& files_;
+    const std::vector<std::string>& paths_;
+    std::set<std::string> names_, taken_;
+};
 
 }  // namespace
+
+std::vector<std::string> filesNamedBy(const Assets& files, const std::string& document) {
+    const std::vector<std::string> paths = files.list();
+    NamedFiles named(files, paths);
+    named.follow({document}, true);
+    std::vector<std::string> out = {document};
+    std::copy_if(named.taken().begin(), named.taken().end(), std::back_inserter(out),
+                 [&](const std::string& path) { return path != document; });
+    return out;
+}
 
 std::vector<std::string> neededFiles(const Assets& files, const std::vector<std::string>& paths,
                                      std::size_t mostBytes) {
     std::uint64_t sum = 0;
     for (const std::string& path : paths) sum += files.size(path).value_or(0);
     if (paths.size() <= kMaxBundleFiles && sum <= mostBytes) return paths;
-    return namedFiles(files, paths);
+    NamedFiles named(files, paths);
+    named.follow(documentsOf(files, paths), false);
+    return {named.taken().begin(), named.taken().end()};
 }
 
 std::map<std::string, std::string> readFiles(const Assets& files,

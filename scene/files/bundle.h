@@ -40,6 +40,10 @@ std::string mainOf(const Assets& files);
 std::vector<std::string> neededFiles(const Assets& files, const std::vector<std::string>& paths,
                                      std::size_t mostBytes);
 
+/// Returns the paths of the files that a document names, and of those that these name: the document
+/// itself first, then the others by their paths. Names are matched as in neededFiles.
+std::vector<std::string> filesNamedBy(const Assets& files, const std::string& document);
+
 /// The bytes of those files. Throws Error limit.bundle over `mostBytes`, and as Assets::read does.
 std::map<std::string, std::string> readFiles(const Assets& files,
                                              const std::vector<std::string>& paths,

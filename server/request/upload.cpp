@@ -47,6 +47,11 @@ Upload fromParts(std::vector<Part> parts) {
             upload.optionsJson = std::move(part.content);
             continue;
         }
+        if (part.name == "without" && part.fileName.empty()) {
+            for (const std::string_view line : split(part.content, "\r\n"))
+                upload.without.emplace_back(line);
+            continue;
+        }
         if (part.name == "scene" && part.fileName.empty()) part.fileName = "scene.xml";
         const std::string path = pathOf(part);
         const auto known = bundle.files.find(path);

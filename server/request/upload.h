@@ -17,6 +17,7 @@ struct Upload {
     render::Job job;
     std::shared_ptr<const scene::Bundle> bundle;  ///< of the job; null for an archive
     std::string optionsJson;                      ///< the part `options`, or empty
+    std::vector<std::string> without;             ///< the part `without`: paths, one a line
 };
 
 /// Reads XML (the scene itself), multipart/form-data with the scene and the files it names, or a

@@ -15,19 +15,6 @@
 #include "worker/tasks/unpack.h"
 
 namespace farol::server {
-namespace {
-
-// Copies the files of a job for the store.
-scene::Bundle bundleOf(const render::Job& job) {
-    const scene::Assets& files = *job.assets;
-    const auto needed = scene::neededFiles(files, files.list(), scene::kMaxBundleBytes);
-    scene::Bundle bundle{job.name, scene::readFiles(files, needed, scene::kMaxBundleBytes)};
-    bundle.files.insert_or_assign(job.name, job.xml);
-    return bundle;
-}
-
-}  // namespace
-
 http::Response postScene(Context& context, const Call& call) {
     const Parameters wanted =
         readParameters(call.request.query, {false, true, {"public", "base"}, {}});

@@ -21,6 +21,8 @@
     ROUTE("DELETE", "/v1/scenes/{id}", deleteScene, kWriting)         \
     ROUTE("GET", "/v1/scenes/{id}/source", getSource, kPlain)         \
     ROUTE("GET", "/v1/scenes/{id}/models", getModels, kPlain)         \
+    ROUTE("GET", "/v1/scenes/{id}/files", listFiles, kPlain)          \
+    ROUTE("GET", "/v1/scenes/{id}/file", getFile, kPlain)             \
     ROUTE("GET", "/v1/scenes/{id}/turntable", getTurntable, kDrawing) \
     ROUTE("GET", "/v1/scenes/{id}/image", getImage, kDrawing)         \
     ROUTE("GET", "/v1/scenes/{id}/thumbnail", getThumbnail, kDrawing) \

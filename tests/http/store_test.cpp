@@ -99,14 +99,79 @@ TEST_CASE("with base= a document takes the place of a scene's own, beside its fi
     CHECK(get(server.port(), "/v1/scenes/" + id + "/source").body == "<world>new</world>");
     CHECK(get(server.port(), "/v1/scenes/box/source").body == "<world>old</world>");
     CHECK(ask(server.port(), rendering("?base=missing", "<world/>")).status == 404);
-    const std::string parts =
-        multipart({{"scene", "a.xml", "<world/>", ""}, {"f", "b.png", "b", ""}});
-    const Answer both =
-        ask(server.port(), {"POST",
-                            "/v1/render?base=box",
-                            {{"Content-Type", "multipart/form-data; boundary=frontier"}},
-                            parts});
-    CHECK(both.status == 400);
+    CHECK(post(server.port(), "/v1/render?base=box", pack(Packing::zip, {{"a.xml", "<world/>"}}),
+               "application/zip")
+              .status == 400);
+}
+
+TEST_CASE("with base= files that are sent join, replace and leave out those of the scene") {
+    const TemporaryFolder folder("http-base-files");
+    folder.write("box/scene.xml", "<world>old</world>");
+    folder.write("box/tile.png", "tile");
+    folder.write("box/wood.png", "wood");
+    server::ServiceOptions options;
+    options.scenesDir = folder.path();
+    FakeServer server(options);
+    std::vector<render::Job> jobs;
+    server.backend.onRender = [&](const render::Job& job) {
+        jobs.push_back(job);
+        return render::Picture{};
+    };
+    const std::string changed = multipart({{"scene", "a.xml", "<world>new</world>", ""},
+                                           {"file", "t/new.png", "fresh", ""},
+                                           {"file", "wood.png", "oak", ""},
+                                           {"without", "", "tile.png\nscene.xml\n", ""}});
+    CHECK(post(server.port(), "/v1/render?base=box", changed, kMultipartType).status == 200);
+    CHECK(post(server.port(), "/v1/render?base=box",
+               multipart({{"scene", "", "<world>new</world>", ""}}), kMultipartType)
+              .status == 200);
+    REQUIRE(jobs.size() == 2);
+    CHECK(jobs[0].xml == "<world>new</world>");
+    CHECK(jobs[0].name == "scene.xml");
+    CHECK(jobs[0].assets->list() == std::vector<std::string>{"scene.xml", "t/new.png", "wood.png"});
+    CHECK(jobs[0].assets->read("wood.png") == "oak");
+    CHECK(jobs[1].assets->read("tile.png") == "tile");
+    CHECK(jobs[0].identity != jobs[1].identity);
+    const Answer kept = post(server.port(), "/v1/scenes?base=box", changed, kMultipartType);
+    REQUIRE(kept.status == 201);
+    const auto files = get(server.port(), kept.header("location") + "/files").json();
+    CHECK(files["main"] == "scene.xml");
+    CHECK(files["files"] == nlohmann::json::parse(R"([{"bytes": 18, "path": "scene.xml"},
+        {"bytes": 5, "path": "t/new.png"}, {"bytes": 3, "path": "wood.png"}])"));
+    const Answer alone = post(server.port(), "/v1/render", changed, kMultipartType);
+    CHECK(alone.status == 400);
+    CHECK(alone.json()["errors"][0]["field"] == "without");
+}
+
+TEST_CASE("the files of a scene are listed and sent; others beside it are not") {
+    const TemporaryFolder folder("http-files");
+    folder.write("box/scene.xml", "<world><model file=\"a.obj\"/><include file='b.xml'/></world>");
+    folder.write("box/a.obj", "mtllib a.mtl");
+    folder.write("box/a.mtl", "map_Kd my skin.png");
+    folder.write("box/t/my skin.png", "skin");
+    folder.write("box/b.xml", "<world><texture file=\"c.png\"/></world>");
+    folder.write("box/c.png", "pixels");
+    folder.write("box/solution.xml", "<world>secret</world>");
+    folder.write("box/notes.txt", "secret");
+    server::ServiceOptions options;
+    options.scenesDir = folder.path();
+    FakeServer server(options);
+    const auto listed = get(server.port(), "/v1/scenes/box/files").json();
+    std::vector<std::string> paths;
+    for (const auto& one : listed["files"]) paths.push_back(one["path"]);
+    CHECK(paths == std::vector<std::string>{"scene.xml", "a.mtl", "a.obj", "b.xml", "c.png",
+                                            "t/my skin.png"});
+    const Answer skin = get(server.port(), "/v1/scenes/box/file?path=t/my%20skin.png");
+    CHECK(skin.status == 200);
+    CHECK(skin.body == "skin");
+    CHECK(skin.header("content-type") == "application/octet-stream");
+    CHECK(skin.header("content-disposition") == "attachment; filename*=UTF-8''my%20skin.png");
+    CHECK(get(server.port(), "/v1/scenes/box/file?path=t/my%20skin.png",
+              {{"If-None-Match", skin.header("etag")}})
+              .status == 304);
+    for (const char* path : {"solution.xml", "notes.txt", "../box/scene.xml", "", "t"})
+        CHECK(get(server.port(), "/v1/scenes/box/file?path=" + std::string(path)).status == 404);
+    CHECK(get(server.port(), "/v1/scenes/none/files").status == 404);
 }
 
 TEST_CASE("the same files have the same address, however they are sent") {

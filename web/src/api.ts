@@ -28,9 +28,15 @@ export interface SceneFacts {
   counts?: { models: number; lights: number; textures: number; triangles: number; textureBytes: number };
   diagnostics: Finding[];
   problem?: { code: string; message: string }; // why it cannot be rendered
-  links: { self: string; source: string; image: string; thumbnail: string; turntable?: string };
+  links: { self: string; source: string; image: string; thumbnail: string; turntable?: string; model?: string };
   upload?: boolean;
   expires?: string | null;
+}
+
+/** A stored scene's document and the files beside it. */
+export interface FileList {
+  main: string;
+  files: { path: string; bytes: number }[];
 }
 
 /** Where the models of a layer=id picture stand: number n is the element copies[n - 1]. */
@@ -131,6 +137,8 @@ export const listScenes = (page: number, words: string): Promise<ScenePage> =>
 export const getScene = (id: string): Promise<SceneFacts> => patient(() => json(scenePath(id)));
 
 export const getModels = (id: string): Promise<ModelPlaces> => json(`${scenePath(id)}/models`);
+
+export const getFiles = (id: string): Promise<FileList> => patient(() => json(`${scenePath(id)}/files`));
 
 export const getSource = async (id: string): Promise<string> => (await request(`${scenePath(id)}/source`)).text();
 

@@ -40,5 +40,15 @@ export async function openFiles(files: readonly NamedFile[]): Promise<void> {
   }
 }
 
+/** Something is held over the page. */
+export const dropping = signal(false);
+
+/** The scene on show takes its parts first; null: none is on show. */
+export const takesParts = signal<((files: readonly NamedFile[]) => boolean) | null>(null);
+
+export const openDropped = (files: readonly NamedFile[]): void => {
+  if (!takesParts.value?.(files)) void openFiles(files);
+};
+
 /** Opens what is chosen in the file dialog. */
 export const pickFiles = (folder: boolean): void => void chooseFiles(folder).then(openFiles);

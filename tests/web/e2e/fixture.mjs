@@ -65,9 +65,9 @@ export function startProxy(target, delayOf) {
 const pageFrom = (context, folder) => context.route((url) => /^\/(assets\/.*)?$/.test(url.pathname), async (route) => {
   const name = new URL(route.request().url()).pathname.slice(1) || 'index.html', file = join(folder, name);
   if (!existsSync(file)) return route.continue();
-  const { 'content-security-policy': policy } = (await route.fetch({ url: new URL('/', route.request().url()).href })).headers();
+  const policy = (await fetch(new URL('/', route.request().url()))).headers.get('content-security-policy');
   const type = { html: 'text/html', js: 'text/javascript', css: 'text/css', svg: 'image/svg+xml' }[name.split('.').pop()];
-  return route.fulfill({ path: file, headers: { 'Content-Type': type, 'Content-Security-Policy': policy } });
+  return route.fulfill({ path: file, headers: { 'Content-Type': type, 'Content-Security-Policy': policy } }).catch(() => undefined); // closed meanwhile
 });
 
 /** A page with what it asked for; an error in its script fails the test that closes it. */
@@ -196,4 +196,62 @@ export async function axeFindings(page) {
   const { violations } = await page.evaluate(() => window.axe.run(document, { resultTypes: ['violations'] }));
   return violations.filter((one) => ['serious', 'critical'].includes(one.impact))
     .map((one) => `${one.id}: ${one.nodes.map((node) => node.target.join(' ')).slice(0, 4).join('; ')}`);
+}
+
+/** A BMP image of one pixel. */
+export function onePixel(red, green, blue) {
+  const bmp = Buffer.concat([Buffer.from('BM'), Buffer.alloc(56)]);
+  for (const [at, value] of [[2, 58], [10, 54], [14, 40], [18, 1], [22, 1]]) bmp.writeUInt32LE(value, at);
+  bmp.writeUInt16LE(1, 26);
+  bmp.writeUInt16LE(24, 28);
+  [blue, green, red].forEach((value, i) => bmp.writeUInt8(value, 54 + i));
+  return bmp;
+}
+
+/** The colour of the canvas's middle, red, green, blue. */
+export const middleOf = (view) => view.page.evaluate(() => {
+  const canvas = document.querySelector('.stage canvas');
+  return [...canvas.getContext('2d').getImageData(canvas.width >> 1, canvas.height >> 1, 1, 1).data].slice(0, 3);
+});
+
+/**
+ * Forwards to a server over a slow line: half of `latencyMs` on each way, and all answers together at `bytesPerMs`.
+ * Both can be changed while it runs.
+ */
+export async function startLine(target, { latencyMs = 150, bytesPerMs = 187.5 } = {}) {
+  const line = { latencyMs, bytesPerMs };
+  let free = 0; // when the line has sent what was given to it
+  const later = (ms) => new Promise((done) => setTimeout(done, ms));
+  const server = http.createServer(async (request, response) => {
+    await later(line.latencyMs / 2);
+    const ahead = http.request(target + request.url, { method: request.method, headers: request.headers }, async (answer) => {
+      await later(line.latencyMs / 2);
+      response.writeHead(answer.statusCode, answer.headers);
+      for await (const chunk of answer)
+        for (let at = 0; at < chunk.length; at += 1400) {
+          const piece = chunk.subarray(at, at + 1400), now = performance.now();
+          free = Math.max(free, now) + piece.length / line.bytesPerMs;
+          if (free - now > 4) await later(free - now);
+          response.write(piece);
+        }
+      response.end();
+    });
+    ahead.on('error', () => response.destroy());
+    response.on('close', () => ahead.destroy());
+    request.pipe(ahead);
+  });
+  await new Promise((done) => server.listen(0, '127.0.0.1', done));
+  return Object.assign(line, {
+    url: `http://127.0.0.1:${server.address().port}`,
+    stop: () => new Promise((closed) => (server.closeAllConnections(), server.close(closed))),
+  });
+}
+
+/** A line as CDP emulates it: 150 ms a round trip, 1.5 Mbit/s. */
+export const slowLine = { offline: false, latency: 150, downloadThroughput: 187500, uploadThroughput: 187500 };
+
+export async function throttle(view, line = slowLine) {
+  const client = await view.context.newCDPSession(view.page);
+  await client.send('Network.enable');
+  await client.send('Network.emulateNetworkConditions', line);
 }

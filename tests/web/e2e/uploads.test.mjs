@@ -5,7 +5,7 @@ import { cpSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } f
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
-import { binary, canvasPixels, drop, dropFolder, launch, openPage, root, settled, startServer } from './fixture.mjs';
+import { binary, canvasPixels, drop, dropFolder, launch, middleOf, onePixel, openPage, root, settled, startServer } from './fixture.mjs';
 
 let server, browser, scratch;
 before(async () => {
@@ -81,20 +81,12 @@ test('a scene dropped with its texture, zipped and as a tar gives the same pictu
   assert.deepEqual(digests, digests.map(() => digests[0]));
 });
 
-/** The colour of the canvas's middle, red, green, blue. */
-const middle = (view) => view.page.evaluate(() => {
-  const canvas = document.querySelector('.stage canvas');
-  return [...canvas.getContext('2d').getImageData(canvas.width >> 1, canvas.height >> 1, 1, 1).data].slice(0, 3);
-});
 const isGreen = ([red, green, blue]) => green > 60 && green > 2 * red && green > 2 * blue;
 
 test('of a dropped folder with build folders only what the scene needs is sent', async () => {
-  const bmp = Buffer.concat([Buffer.from('BM'), Buffer.alloc(56)]); // one green pixel
-  for (const [at, value] of [[2, 58], [10, 54], [14, 40], [18, 1], [22, 1]]) bmp.writeUInt32LE(value, at);
-  bmp.writeUInt16LE(1, 26); bmp.writeUInt16LE(24, 28); bmp.writeUInt8(255, 55);
   const files = [
     { path: 'work/scenes/scene.xml', bytes: Buffer.from('<world><group><models><model file="box_2_1.3d"><texture file="../tex/leaf.bmp"/></model></models></group></world>') },
-    { path: 'work/tex/leaf.bmp', bytes: bmp },
+    { path: 'work/tex/leaf.bmp', bytes: onePixel(0, 255, 0) },
     { path: 'work/.git/config', bytes: Buffer.from('x') },
   ];
   for (let i = 0; i < 400; ++i) files.push({ path: `work/build/o${i}.o`, bytes: Buffer.from(`object ${i}`) });
@@ -107,7 +99,7 @@ test('of a dropped folder with build folders only what the scene needs is sent',
   await dropFolder(view.page, files);
   await view.page.waitForURL(/#\/scene\/(~|%7E)/);
   await settled(view);
-  assert.ok(isGreen(await middle(view)), `${await middle(view)} is not the texture's green`);
+  assert.ok(isGreen(await middleOf(view)), `${await middleOf(view)} is not the texture's green`);
   assert.ok(!sent.includes('object 7') && !sent.includes('.git'), 'build folders were sent');
   await view.close();
 });
@@ -118,7 +110,7 @@ test('a zip in a zip opens', async () => {
   run('python3', '-m', 'zipfile', '-c', 'inner.zip', 'inner/');
   run('python3', '-m', 'zipfile', '-c', 'outer.zip', 'inner.zip');
   const view = await opened([file('outer.zip')]);
-  assert.ok(isGreen(await middle(view)), `${await middle(view)} is not the box's green`);
+  assert.ok(isGreen(await middleOf(view)), `${await middleOf(view)} is not the box's green`);
   await view.close();
 });
 
@@ -127,7 +119,7 @@ test('an OBJ file has the colours of the material library beside it', async () =
     + 'f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 4 8 7 3\nf 1 5 8 4\nf 2 3 7 6\n');
   writeFileSync(join(scratch, 'tile.mtl'), 'newmtl leaf\nKd 0.05 0.9 0.05\n');
   const view = await opened([file('tile.obj'), file('tile.mtl')]);
-  assert.ok(isGreen(await middle(view)), `${await middle(view)} is not the library's green`);
+  assert.ok(isGreen(await middleOf(view)), `${await middleOf(view)} is not the library's green`);
   await view.close();
 });
 

@@ -1,6 +1,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { Adaptation } from '../../../web/src/frames/adapt.ts';
+import { Line } from '../../../web/src/frames/line.ts';
 import { FrameLoop, restDelayMs, type Ask, type Shown } from '../../../web/src/frames/loop.ts';
 import { FrameRate, median, parseServerTiming, splitLatency } from '../../../web/src/frames/timing.ts';
 
@@ -127,4 +128,41 @@ test('the time of a picture is split by Server-Timing', () => {
   const rate = new FrameRate();
   for (let i = 0; i <= 10; ++i) rate.add(i * 40);
   assert.ok(Math.abs(rate.rate(400) - 25) < 1e-9);
+});
+
+test('the line: the best of the last answers, and how many requests fill it', () => {
+  const line = new Line();
+  assert.ok(!line.isKnown && !line.isSlow && line.requestsFor(20000, 10) === 2);
+  line.add({ bytes: 500, firstByteMs: 170, transferMs: 0 }, 10); // too small to show a bandwidth
+  assert.deepEqual([line.bytesPerMs, line.isSlow], [Number.POSITIVE_INFINITY, true]); // but the way is long
+  line.add({ bytes: 18700, firstByteMs: 175, transferMs: 100 }, 20);
+  assert.deepEqual([line.roundTripMs, line.bytesPerMs, line.isSlow], [160, 187, true]);
+  assert.equal(line.requestsFor(9350, 10), 5); // 50 ms each, 160 ms the way
+  assert.equal(line.requestsFor(37400, 10), 2);
+  // A near server on a busy machine is not a slow line.
+  const near = new Line();
+  near.add({ bytes: 500, firstByteMs: 25, transferMs: 0 }, 20);
+  near.add({ bytes: 20000, firstByteMs: 30, transferMs: 60 }, 20);
+  assert.ok(!near.isSlow);
+  // Four better answers later the slow one is forgotten.
+  for (let i = 0; i < 4; ++i) line.add({ bytes: 60000, firstByteMs: 22, transferMs: 10 }, 20);
+  assert.ok(!line.isSlow);
+});
+
+test('the first full picture waits for the small one, which shows the line', async () => {
+  const asked: (Ask & { answer: () => void })[] = [];
+  const loop = new FrameLoop<string>({
+    ask: (ask) => new Promise((done) => asked.push({
+      ...ask, answer: () => done({ picture: '', serverTiming: null, wire: { wireMs: 300, bytes: 20000, firstByteMs: 160, transferMs: 107 } }),
+    })),
+    show: () => undefined, discard: () => undefined, failed: () => null, now: () => performance.now(), waitsForLine: true,
+  });
+  loop.move();
+  await sleep(restDelayMs + 80);
+  assert.equal(asked.length, 1);
+  asked[0]?.answer();
+  await sleep(10);
+  assert.deepEqual(asked.map((one) => one.pace === null), [false, true]);
+  assert.ok(loop.line.isSlow);
+  loop.stop();
 });

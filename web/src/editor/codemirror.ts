@@ -1,7 +1,7 @@
 // CodeMirror for scenes. It lives in a shadow root: there it adds its styles as constructed style
 // sheets, which the page's content security policy allows and <style> elements it does not.
 import { autocompletion, closeBrackets, closeBracketsKeymap, completionKeymap } from '@codemirror/autocomplete';
-import { defaultKeymap, history, historyKeymap, indentWithTab } from '@codemirror/commands';
+import { defaultKeymap, indentWithTab } from '@codemirror/commands';
 import { xml } from '@codemirror/lang-xml';
 import {
   bracketMatching, defaultHighlightStyle, foldGutter, foldKeymap, HighlightStyle, indentOnInput, indentUnit, syntaxHighlighting,
@@ -68,6 +68,7 @@ export interface Editor {
   destroy(): void;
 }
 
+/** Undo and redo are the page's (scene/history.ts): its keys are not bound here. */
 export function createEditor(host: HTMLElement, text: string, changed: (text: string) => void): Editor {
   const root = host.shadowRoot ?? host.attachShadow({ mode: 'open' });
   let outside = false; // the change comes from elsewhere: it is not told again
@@ -76,12 +77,12 @@ export function createEditor(host: HTMLElement, text: string, changed: (text: st
     state: EditorState.create({
       doc: text,
       extensions: [
-        lineNumbers(), foldGutter(), lintGutter(), highlightSpecialChars(), history(), drawSelection(), indentOnInput(), bracketMatching(),
+        lineNumbers(), foldGutter(), lintGutter(), highlightSpecialChars(), drawSelection(), indentOnInput(), bracketMatching(),
         closeBrackets(), autocompletion({ icons: false }), highlightActiveLine(), highlightActiveLineGutter(), highlightSelectionMatches(),
         indentUnit.of('    '), EditorState.tabSize.of(4), EditorView.lineWrapping,
         syntaxHighlighting(colors), syntaxHighlighting(defaultHighlightStyle, { fallback: true }), language, theme,
         EditorView.contentAttributes.of({ 'aria-label': 'XML of the scene', spellcheck: 'false', tabindex: '0' }),
-        keymap.of([...closeBracketsKeymap, ...defaultKeymap, ...searchKeymap, ...historyKeymap, ...foldKeymap, ...completionKeymap, ...lintKeymap, indentWithTab]),
+        keymap.of([...closeBracketsKeymap, ...defaultKeymap, ...searchKeymap, ...foldKeymap, ...completionKeymap, ...lintKeymap, indentWithTab]),
         EditorView.updateListener.of((update) => {
           if (update.docChanged && !outside) changed(update.state.doc.toString());
         }),
@@ -104,7 +105,12 @@ export function createEditor(host: HTMLElement, text: string, changed: (text: st
       const before = view.state.doc.toString();
       if (next === before) return;
       outside = true;
-      view.dispatch({ changes: changeBetween(before, next) });
+      const change = changeBetween(before, next);
+      view.dispatch({
+        changes: change,
+        // Whoever works in the editor sees what an undo brought back.
+        ...(view.hasFocus ? { selection: { anchor: change.from + change.insert.length }, scrollIntoView: true } : {}),
+      });
       outside = false;
     },
     setFindings(findings) {

@@ -1,4 +1,5 @@
 // How small the frames of a movement are: as large as can be drawn in time.
+import { Line, type Transfer } from './line.ts';
 import { median, type Latency } from './timing.ts';
 
 export interface Pace {
@@ -20,20 +21,30 @@ const window = 4;
  * frames, and met by more requests under way.
  */
 export class Adaptation {
+  readonly line = new Line();
+  private frame = { bytes: 0, serverMs: 0 }; // of the last small frame
   private step = 2;
   private recent: Latency[] = [];
   private roundTrip = Number.POSITIVE_INFINITY;
   private patience = window;
 
   get pace(): Pace {
-    const far = Number.isFinite(this.roundTrip) ? this.roundTrip : 0;
+    const measured = this.line.isKnown, fastest = Number.isFinite(this.roundTrip) ? this.roundTrip : 0;
+    const far = measured ? this.line.roundTripMs : fastest, isLong = far > 60 || this.line.isSlow;
     return {
       scale: ladder[this.step] as number,
       // WebP takes the server longer and the wire shorter.
-      format: far > 60 ? 'webp' : 'jpeg',
-      quality: far > 60 ? 60 : 80,
-      inFlight: Math.min(4, 2 + Math.floor(far / 50)),
+      format: isLong ? 'webp' : 'jpeg',
+      quality: isLong ? 60 : 80,
+      inFlight: measured ? this.line.requestsFor(this.frame.bytes, this.frame.serverMs) : Math.min(4, 2 + Math.floor(far / 50)),
     };
+  }
+
+  /** An answer arrived, of a movement or not. */
+  measure(transfer: Transfer, latency: Latency, moving: boolean): void {
+    const serverMs = latency.queue + latency.prepare + latency.draw + latency.encode;
+    this.line.add(transfer, serverMs);
+    if (moving) this.frame = { bytes: transfer.bytes, serverMs };
   }
 
   /** A frame of a movement arrived. */

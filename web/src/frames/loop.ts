@@ -1,6 +1,7 @@
 // Which picture is asked for when, and which is shown: the newest wins, always.
 import { Adaptation, type Pace } from './adapt.ts';
-import { splitLatency, type Latency } from './timing.ts';
+import type { Line } from './line.ts';
+import { splitLatency, type Latency, type WireTime } from './timing.ts';
 
 export interface Ask {
   seq: number;
@@ -11,7 +12,7 @@ export interface Ask {
 export interface Answer<Picture> {
   picture: Picture;
   serverTiming: string | null;
-  wireMs?: number | null; // until the last byte, where it is known
+  wire?: WireTime | null; // how it came, where that is known
 }
 
 export interface Shown<Picture> {
@@ -30,6 +31,8 @@ export interface LoopHooks<Picture> {
   /** Returns after how many ms to ask again, or null to leave it. */
   failed(fault: unknown): number | null;
   now(): number;
+  /** Whether the full picture waits for the first small one, which shows how it is best sent. */
+  waitsForLine?: boolean;
 }
 
 /** After the last input, until the full picture is asked for. */
@@ -44,6 +47,7 @@ export class FrameLoop<Picture> {
   private rest: AbortController | null = null;
   private wantsFrame = false;
   private wantsRest = false;
+  private restWaits = false; // for an answer that shows the line
   private restTimer: ReturnType<typeof setTimeout> | undefined;
   private retryTimer: ReturnType<typeof setTimeout> | undefined;
   private held = false; // while something plays there is no rest
@@ -52,6 +56,10 @@ export class FrameLoop<Picture> {
 
   get pace(): Pace {
     return this.adaptation.pace;
+  }
+
+  get line(): Line {
+    return this.adaptation.line;
   }
 
   get idle(): boolean {
@@ -65,13 +73,20 @@ export class FrameLoop<Picture> {
     this.rest?.abort();
     this.rest = null;
     clearTimeout(this.restTimer);
-    if (!this.held) this.restTimer = setTimeout(() => this.settle(), restDelayMs);
+    this.restWaits = false;
+    if (!this.held) this.restTimer = setTimeout(() => this.rested(), restDelayMs);
     this.pump();
+  }
+
+  private rested(): void {
+    if (this.hooks.waitsForLine && !this.line.isKnown && this.moving > 0) this.restWaits = true;
+    else this.settle();
   }
 
   /** The full picture, now. */
   settle(): void {
     clearTimeout(this.restTimer);
+    this.restWaits = false;
     this.wantsFrame = false;
     this.wantsRest = true;
     this.rest?.abort();
@@ -95,7 +110,7 @@ export class FrameLoop<Picture> {
   stop(): void {
     clearTimeout(this.restTimer);
     clearTimeout(this.retryTimer);
-    this.wantsFrame = this.wantsRest = false;
+    this.wantsFrame = this.wantsRest = this.restWaits = false;
     this.rest?.abort();
     this.rest = null;
     this.generation += 1;
@@ -120,10 +135,11 @@ export class FrameLoop<Picture> {
     try {
       const answer = await this.hooks.ask({ seq, pace }, controller.signal);
       if (answer) {
+        const latency = splitLatency(this.hooks.now() - start, answer.serverTiming, answer.wire?.wireMs);
+        if (answer.wire) this.adaptation.measure(answer.wire, latency, pace !== null);
         if (generation !== this.generation || seq <= this.shownSeq) this.hooks.discard(answer.picture);
         else {
           this.shownSeq = seq;
-          const latency = splitLatency(this.hooks.now() - start, answer.serverTiming, answer.wireMs);
           if (pace) this.adaptation.add(latency);
           this.hooks.show({ picture: answer.picture, seq, moving: pace !== null, latency });
         }
@@ -138,6 +154,7 @@ export class FrameLoop<Picture> {
       if (generation === this.generation) {
         if (pace) this.moving -= 1;
         if (this.rest === controller) this.rest = null;
+        if (this.restWaits && this.moving === 0) this.settle();
         this.pump();
       }
     }

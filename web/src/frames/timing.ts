@@ -1,4 +1,6 @@
 // Where the time of a picture went, from its Server-Timing header and the clock here.
+import type { Transfer } from './line.ts';
+
 export interface Latency {
   total: number; // ms, from the request to the decoded picture
   network: number; // under way: what the server did not spend until the last byte came
@@ -48,11 +50,19 @@ export class FrameRate {
   }
 }
 
-/** The time of a request until its last byte. It frees the browser's record, which holds few of them. */
-export function takeWireTime(url: string): number | null {
+export interface WireTime extends Transfer {
+  wireMs: number; // from the request to its last byte, with the connection
+}
+
+/** How an answer came. It frees the browser's record, which holds few of them. */
+export function takeWireTime(url: string): WireTime | null {
   const entry = performance.getEntriesByName(url, 'resource').at(-1) as PerformanceResourceTiming | undefined;
   performance.clearResourceTimings();
-  return entry && entry.responseEnd > 0 ? entry.responseEnd - entry.startTime : null;
+  if (!entry || entry.responseEnd <= 0) return null;
+  return {
+    wireMs: entry.responseEnd - entry.startTime, bytes: entry.encodedBodySize,
+    firstByteMs: entry.responseStart - entry.requestStart, transferMs: entry.responseEnd - entry.responseStart,
+  };
 }
 
 export function median(values: readonly number[]): number {

@@ -1,4 +1,6 @@
 // Files that make a scene together: which is the scene, and under which paths the others go.
+import { noChanges, type FileChanges } from './scene_files.ts';
+
 export interface NamedFile {
   path: string; // with forward slashes
   file: File;
@@ -16,12 +18,13 @@ export interface Loose {
   files: { path: string; file: Blob }[]; // the document among them
 }
 
-/** The multipart body of a document, which may have been edited, and its files. */
-export function formOf({ main, files }: Loose, text?: string): FormData {
-  const form = new FormData();
+/** The multipart body of a document, which may have been edited, and its files with the changes. */
+export function formOf({ main, files }: Loose, text?: string, { added, removed }: FileChanges = noChanges): FormData {
+  const form = new FormData(), fresh = new Set(added.map((one) => one.path));
   for (const { path, file } of files)
-    if (path !== main) form.append('file', file, path);
-    else form.append('scene', text === undefined ? file : new Blob([text], { type: 'application/xml' }), path);
+    if (path === main) form.append('scene', text === undefined ? file : new Blob([text], { type: 'application/xml' }), path);
+    else if (!fresh.has(path) && !removed.includes(path)) form.append('file', file, path);
+  for (const { path, file } of added) form.append('file', file, path);
   return form;
 }
 

@@ -1,6 +1,7 @@
 // One picture as it came from the server.
 import type { Finding, Options } from '../api.ts';
 import { formOf, type Loose } from './bundle.ts';
+import { isChanged, type FileChanges } from './scene_files.ts';
 import { Problem, query, request } from '../api.ts';
 import type { LookAt } from '../maths/camera.ts';
 
@@ -38,11 +39,17 @@ export interface Origin {
   id: string | null; // of the stored scene; null: the text alone
   text: string | null; // the edited document; null: as it is stored
   loose: Loose | null; // files of this browser that the document names
+  files: FileChanges;
 }
 
-/** The body that sends the document. */
-export const bodyOf = ({ text, loose }: Origin): RequestInit =>
-  loose ? { body: formOf(loose, text ?? '') } : { body: text ?? '', headers: { 'Content-Type': 'application/xml' } };
+/** The body that sends the document. Of a stored scene's files only those that changed are sent. */
+export function bodyOf({ id, text, loose, files }: Origin): RequestInit {
+  if (loose) return { body: formOf(loose, text ?? '', files) };
+  if (!isChanged(files)) return { body: text ?? '', headers: { 'Content-Type': 'application/xml' } };
+  const main = 'scene.xml', form = formOf({ main, files: [{ path: main, file: new Blob([]) }] }, text ?? '', files);
+  if (id !== null && files.removed.length > 0) form.append('without', files.removed.join('\n'));
+  return { body: form };
+}
 
 /** The frames of one viewer are a session, numbered from 1: newer ones drop older ones that still wait. */
 export const newSession = (): string => crypto.getRandomValues(new Uint32Array(2)).join('-');

@@ -2,7 +2,7 @@
 // the view asks the frame loop for pictures.
 import { batch, computed, signal } from '@preact/signals';
 import {
-  findingsOf, findingsOfFacts, getScene, getSource, Problem, validate, type Finding, type ModelPlaces, type Options, type SceneFacts,
+  findingsOf, findingsOfFacts, getScene, Problem, validate, type Finding, type ModelPlaces, type Options, type SceneFacts,
 } from '../api.ts';
 import { FrameLoop, type Shown } from '../frames/loop.ts';
 import { FrameRate, takeWireTime, type Latency } from '../frames/timing.ts';
@@ -10,7 +10,9 @@ import { orbitOf, walkOf, walkTarget, type LookAt, type Orbit, type Walk } from 
 import { formatView, replaceAddress, scenePlace, type ViewLink } from '../router.ts';
 import type { Loose } from './bundle.ts';
 import { SceneClock } from './clock.ts';
-import { hashText, loadDraft, saveDraft, type Draft } from './drafts.ts';
+import type { Draft } from './drafts.ts';
+import { EditedScene, type Editing } from './edited_scene.ts';
+import { missingOf, type FileChanges } from './scene_files.ts';
 import { retryAfterS, sceneFaultOf, stateOf, wholeFindings, type Fault } from './state.ts';
 import { cameraOptions, qualityOptions, sizeOptions, type Quality, type StageSize } from './picture_options.ts';
 import { bodyOf, decodeFrame, fetchPicture, newSession, type Frame, type Origin } from './frame.ts';
@@ -29,18 +31,13 @@ const hudEveryMs = 200;
 
 export type Canvas = { draw(bitmap: ImageBitmap, seq: number): void; size(): StageSize };
 
-export class Viewer {
+export class Viewer extends EditedScene {
   readonly facts = signal<SceneFacts | null>(null);
-  readonly original = signal<string | null>(null);
-  readonly text = signal<string | null>(null); // of the editor; null: not loaded
-  readonly orbit = signal<Orbit | null>(null); // null: the scene's own camera
-  readonly walk = signal<Walk | null>(null);
   readonly options = signal<Record<string, string>>({});
   readonly quality = signal<Quality>('standard');
   readonly lightMode = signal(false);
   readonly turning = signal(false);
   readonly findings = signal<Finding[]>([]);
-  readonly notice = signal('');
   readonly hud = signal<Hud | null>(null);
   readonly still = signal<Blob | null>(null); // the last full picture
   readonly pictured = signal(false);
@@ -48,7 +45,7 @@ export class Viewer {
   readonly state = computed(() => stateOf(this.fault.value, this.pictured.value, this.findings.value));
   readonly picked = signal<{ number: number; line: number } | null>(null); // the model last clicked
   readonly reveal = signal<{ line: number; column: number } | null>(null); // a place the editor goes to
-  readonly edited = computed(() => this.text.value !== null && this.text.value !== this.original.value);
+  readonly missing = computed(() => missingOf(this.findings.value)); // files that the document names
   readonly clock: SceneClock;
   places: ModelPlaces | null = null; // of the stored document
   home: LookAt | null = null;
@@ -58,17 +55,18 @@ export class Viewer {
   private readonly rate = new FrameRate();
   private readonly loop: FrameLoop<Frame>;
   private linkTimer: ReturnType<typeof setTimeout> | undefined;
-  private draftTimer: ReturnType<typeof setTimeout> | undefined;
   private typeTimer: ReturnType<typeof setTimeout> | undefined;
   private latest: Frame | null = null;
   private toldAt = 0; // when the overlay was last told
   private asked = ''; // the size of the last picture that was asked for
   private closed = false;
+  private stored: SceneFacts | null = null; // of the scene without edits
   private attempts = 0; // at a server that does not answer
   private openTimer: ReturnType<typeof setTimeout> | undefined;
-  private known: { text: string; facts: (SceneFacts & Partial<ModelPlaces>) | null; findings: readonly Finding[] } | null = null; // of the edited document
+  private known: { text: string; files: FileChanges; facts: (SceneFacts & Partial<ModelPlaces>) | null; findings: readonly Finding[] } | null = null; // of the edited document
 
-  constructor(readonly id: string | null, private readonly loose: Loose | null = null) {
+  constructor(id: string | null, loose: Loose | null = null) {
+    super(id, loose);
     this.clock = new SceneClock(() => this.moved(), () => {
       this.loop.hold(this.turning.value);
       this.loop.settle();
@@ -79,22 +77,23 @@ export class Viewer {
         const options = this.pictureOptions();
         this.asked = `${options['width']} ${options['height']}`;
         if (pace) Object.assign(options, { scale: pace.scale, aa: 1, error: 1, format: pace.format, quality: pace.quality });
-        else options['format'] = 'png';
+        else Object.assign(options, this.restForm());
         const response = await fetchPicture(this.origin(), { ...options, session: this.session, seq }, signal);
         if (!response) return undefined;
         const picture = await decodeFrame(response, options);
-        return { picture, serverTiming: response.headers.get('Server-Timing'), wireMs: takeWireTime(response.url) };
+        return { picture, serverTiming: response.headers.get('Server-Timing'), wire: takeWireTime(response.url) };
       },
       show: (shown) => this.show(shown),
       discard: (frame) => frame.bitmap.close(),
       failed: (fault) => this.failed(fault),
       now: () => performance.now(),
+      waitsForLine: true,
     });
   }
 
   /** Reads the facts, restores edits and view, and asks for the first picture. */
   async open(link: ViewLink, template: string): Promise<void> {
-    const draft = this.loose ? null : loadDraft(this.id);
+    const draft = this.beginDraft();
     batch(() => {
       this.orbit.value = link.orbit;
       this.walk.value = link.walk;
@@ -103,7 +102,7 @@ export class Viewer {
     });
     if (this.id === null) {
       this.original.value = template;
-      this.text.value = draft?.text ?? template;
+      this.text.value = template;
     }
     await this.begin(draft);
   }
@@ -111,7 +110,8 @@ export class Viewer {
   /** Reads the facts of a stored scene, and asks for the first picture. */
   private async begin(draft: Draft | null): Promise<void> {
     try {
-      if (this.id !== null) await this.readFacts(this.id, draft);
+      if (this.id !== null) await this.readFacts(this.id);
+      await this.restore(draft);
     } catch (thrown) {
       if (this.closed) return;
       const fault = sceneFaultOf(thrown);
@@ -127,16 +127,13 @@ export class Viewer {
     if (!this.closed) this.loop.move();
   }
 
-  private async readFacts(id: string, draft: Draft | null): Promise<void> {
+  private async readFacts(id: string): Promise<void> {
     const facts = await getScene(id);
     if (this.closed) return;
-    this.facts.value = facts;
-    this.home ??= facts.camera ?? null;
-    this.clock.range(facts.animated ?? false, facts.playFrom ?? 0, facts.loopSeconds ?? 60);
+    this.stored = facts;
+    this.showFacts(facts);
     this.findings.value = findingsOfFacts(facts);
-    if (!draft && facts.valid) return;
-    await this.loadText();
-    if (draft) this.restore(draft.text, draft.base);
+    if (!facts.valid) await this.loadText();
   }
 
   close(): void {
@@ -149,102 +146,61 @@ export class Viewer {
     this.flushDraft();
   }
 
-  async loadText(): Promise<void> {
-    if (this.id === null || this.original.value !== null) return;
-    const source = await getSource(this.id);
-    batch(() => {
-      this.original.value = source;
-      this.text.value ??= source;
-    });
-  }
-
-  private restore(text: string, base: string): void {
-    this.text.value = text;
-    if (this.edited.value)
-      this.notice.value = base === hashText(this.original.value ?? '')
-        ? 'Your edits of this scene were restored.'
-        : 'Your edits were restored; the scene on the server has changed since.';
-  }
-
-  /**
-   * The document was changed: by `typing` (drawn when it pauses), by `dragging` a slider (drawn as a
-   * movement) or by one step that is `done`.
-   */
-  edit(text: string, how: 'typing' | 'dragging' | 'done'): void {
-    if (text === this.text.value) return;
-    this.text.value = text;
-    clearTimeout(this.draftTimer);
+  protected redraw(how: Editing): void {
     clearTimeout(this.typeTimer);
-    this.draftTimer = setTimeout(() => this.flushDraft(), 200);
+    this.keepLink();
     if (how === 'dragging') this.loop.move();
     else this.typeTimer = setTimeout(() => this.loop.settle(), how === 'typing' ? 220 : 0);
   }
 
-  discardEdits(): void {
-    this.text.value = this.original.value;
-    this.known = null;
-    this.flushDraft();
-    this.notice.value = '';
-    if (this.id !== null)
-      void getScene(this.id).then((facts) => {
-        if (this.edited.value) return;
-        this.facts.value = facts;
-        this.home = facts.camera ?? this.home;
-      }, () => undefined); // the picture tells what is wrong
-    this.loop.settle();
-  }
-
-  flushDraft(): void {
-    clearTimeout(this.draftTimer);
-    const text = this.text.value;
-    if (text === null) return;
-    const kept = saveDraft(this.id, this.edited.value ? { text, base: hashText(this.original.value ?? '') } : null);
-    if (!kept) this.notice.value = 'This browser keeps no edits: copy the XML before you leave.';
-  }
-
   /** What the service knows of the document as it is edited now; null where it cannot be read. */
   async validated(): Promise<(SceneFacts & Partial<ModelPlaces>) | null> {
-    const origin = this.origin(), { text } = origin;
+    const origin = this.origin(), { text, files } = origin;
     if (text === null) return this.facts.value;
-    if (this.known?.text === text) return this.known.facts;
+    if (this.isKnown(origin)) return this.known?.facts ?? null;
     try {
       const facts = await validate(bodyOf(origin), this.id);
-      this.known = { text, facts, findings: facts.diagnostics };
+      this.known = { text, files, facts, findings: facts.diagnostics };
       return facts;
     } catch (fault) {
-      if (fault instanceof Problem && !fault.busy) this.known = { text, facts: null, findings: fault.findings };
+      if (fault instanceof Problem && !fault.busy) this.known = { text, files, facts: null, findings: fault.findings };
       return null;
     }
   }
 
+  private isKnown({ text, files }: Origin): boolean {
+    return this.known !== null && this.known.text === text && this.known.files === files;
+  }
+
   /** All that is known to be wrong with the document on show. */
   private documentFindings(): readonly Finding[] {
-    const { text } = this.origin();
-    if (text !== null) return this.known?.text === text ? this.known.findings : [];
+    const origin = this.origin();
+    if (origin.text !== null) return this.isKnown(origin) ? (this.known?.findings ?? []) : [];
     return this.facts.value ? findingsOfFacts(this.facts.value) : [];
   }
 
   /** After an edit: the animation, the camera and the counts may be others. */
   private async refresh(): Promise<void> {
-    const { text } = this.origin();
-    if (text === null || this.known?.text === text) return;
+    const origin = this.origin();
+    if (origin.text === null) {
+      if (this.stored && this.facts.value !== this.stored) this.showFacts(this.stored); // an edit was taken back
+      return;
+    }
+    if (this.isKnown(origin)) return;
     const facts = await this.validated();
-    if (this.origin().text !== text) return;
+    if (!this.isKnown(this.origin())) return;
     if (this.latest) this.setFindings(wholeFindings(this.documentFindings(), this.latest.findings));
     if (!facts) return;
+    const links = this.stored?.links ?? { self: '', source: '', image: '', thumbnail: '' };
+    this.showFacts({ ...facts, id: this.id ?? '', links });
+  }
+
+  private showFacts(facts: SceneFacts): void {
     batch(() => {
-      const links = this.facts.value?.links ?? { self: '', source: '', image: '', thumbnail: '' };
-      this.facts.value = { ...facts, id: this.id ?? '', links };
+      this.facts.value = facts;
       this.home = facts.camera ?? this.home;
       this.clock.range(facts.animated ?? false, facts.playFrom ?? 0, facts.loopSeconds ?? 60);
     });
-  }
-
-  /** The edits live on elsewhere. */
-  forgetDraft(): void {
-    clearTimeout(this.draftTimer);
-    this.text.value = this.original.value;
-    this.flushDraft();
   }
 
   report(fault: unknown): void {
@@ -257,15 +213,24 @@ export class Viewer {
     return !finding.file || finding.file === name || (!this.loose && /(^|\/)scene\.xml$/.test(finding.file));
   }
 
-  origin(): Origin {
-    return { id: this.id, text: this.id === null || this.edited.value ? this.text.value : null, loose: this.loose };
-  }
-
   /** What the full picture is asked with: all but format. */
   pictureOptions(): Options {
     const out: Options = { missing: 'placeholder', ...this.sizeOptions(), ...qualityOptions[this.quality.value], ...this.options.value };
     if (this.clock.time.value > 0) out['time'] = Number(this.clock.time.value.toFixed(3));
     return { ...out, ...cameraOptions(this.walk.value, this.orbit.value, this.home) };
+  }
+
+  /** On a slow line the image at rest is small to send, unless the most exact one was asked for. */
+  private restForm(): Options {
+    return this.loop.line.isSlow && this.quality.value !== 'reference' ? { format: 'webp', quality: 85 } : { format: 'png' };
+  }
+
+  /** The image on show as PNG: asked for anew where it came otherwise. Null: there is none yet. */
+  async exactImage(): Promise<Blob | null> {
+    const still = this.still.value;
+    if (!still || still.type === 'image/png') return still;
+    const response = await fetchPicture(this.origin(), { ...this.pictureOptions(), format: 'png' });
+    return response ? response.blob() : null;
   }
 
   /** Of a round trip about the scene, which begins with this view. */
@@ -305,7 +270,10 @@ export class Viewer {
     if (picture.camera && !this.home) this.home = picture.camera;
     this.latest?.bitmap.close();
     this.latest = picture;
-    if (!moving) void this.refresh();
+    if (moving) return;
+    void this.refresh();
+    // Sent small because the line seemed slow; it is not: then as it is.
+    if (picture.options['format'] !== 'png' && this.restForm()['format'] === 'png') this.loop.settle();
   }
 
   private failed(fault: unknown): number | null {
@@ -327,7 +295,7 @@ export class Viewer {
     this.attempts = 0;
     if (this.facts.value === null && this.id !== null) {
       clearTimeout(this.openTimer);
-      void this.begin(loadDraft(this.id));
+      void this.begin(this.beginDraft());
     } else this.loop.settle();
   }
 
@@ -356,12 +324,14 @@ export class Viewer {
   changeOrbit(change: (orbit: Orbit) => Orbit): void {
     const from = this.orbit.value ?? (this.home && orbitOf(this.home));
     if (!from) return;
+    if (!this.turning.value) this.record('camera');
     this.orbit.value = change(from);
     this.moved();
   }
 
   changeWalk(change: (walk: Walk) => Walk): void {
     if (!this.walk.value) return;
+    this.record('camera');
     this.walk.value = change(this.walk.value);
     this.moved();
   }
@@ -369,6 +339,7 @@ export class Viewer {
   /** Walking begins where the camera is, and orbiting again where the walk ended up looking. */
   toggleWalk(): void {
     const orbit = this.orbit.value ?? (this.home && orbitOf(this.home));
+    if (this.walk.value || this.home) this.record('');
     if (this.walk.value) {
       const { eye } = this.walk.value, distance = orbit?.distance ?? 5;
       const ahead = walkTarget(this.walk.value);
@@ -390,6 +361,7 @@ export class Viewer {
   }
 
   reset(): void {
+    if (this.orbit.value || this.walk.value) this.record('');
     this.orbit.value = null;
     this.walk.value = null;
     this.settle();
@@ -409,6 +381,7 @@ export class Viewer {
   }
 
   toggleTurntable(): void {
+    if (!this.turning.value) this.record('');
     this.turning.value = !this.turning.value;
     this.loop.hold(this.turning.value || this.clock.playing.value);
     if (!this.turning.value) return this.settle();

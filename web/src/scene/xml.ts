@@ -37,7 +37,7 @@ const unescape = (text: string): string =>
     const code = name[1]?.toLowerCase() === 'x' ? parseInt(name.slice(2), 16) : parseInt(name.slice(1), 10);
     return code > 0 && code <= 0x10ffff ? String.fromCodePoint(code) : all;
   });
-const escape = (text: string): string =>
+export const escapeXml = (text: string): string =>
   text.replaceAll('&', '&amp;').replaceAll('<', '&lt;').replaceAll('"', '&quot;');
 
 /**
@@ -146,10 +146,10 @@ export const childOf = (element: XmlElement, ...names: string[]): XmlElement | u
 /** Sets the attribute under the name it has, or adds it under the first of the names. */
 export function setAttribute(element: XmlElement, names: readonly string[], value: string): Edit {
   const found = attributeOf(element, names);
-  if (found) return { from: found.valueStart, to: found.valueEnd, insert: found.quoted ? escape(value) : `"${escape(value)}"` };
+  if (found) return { from: found.valueStart, to: found.valueEnd, insert: found.quoted ? escapeXml(value) : `"${escapeXml(value)}"` };
   const last = element.attributes[element.attributes.length - 1];
   const at = last ? last.end : element.start + 1 + element.name.length;
-  return { from: at, to: at, insert: ` ${names[0]}="${escape(value)}"` };
+  return { from: at, to: at, insert: ` ${names[0]}="${escapeXml(value)}"` };
 }
 
 export const lineOf = (text: string, at: number): number => text.slice(0, at).split('\n').length;

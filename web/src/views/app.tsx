@@ -1,9 +1,8 @@
 // The frame of all pages: head, the page itself, and what may lie over it.
-import { signal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 import { place } from '../router.ts';
 import { dark, toggleTheme } from '../theme.ts';
-import { local, openFiles, uploading, uploadProblem } from '../upload.ts';
+import { dropping, local, openDropped, takesParts, uploading, uploadProblem } from '../upload.ts';
 import { filesOf } from '../files.ts';
 import { lazyView } from './lazy.tsx';
 import { Gallery } from './gallery.tsx';
@@ -13,7 +12,6 @@ import { Findings, Toast, Tool } from './ui.tsx';
 import { TokenDialog } from './token_dialog.tsx';
 import { ViewerPage } from './viewer_page.tsx';
 
-const dropping = signal(false);
 const GradePage = lazyView(() => import('./grade_page.tsx').then((module) => module.GradePage), 'the grade page');
 
 function useDrops(): void {
@@ -35,7 +33,7 @@ function useDrops(): void {
       if (!ofFiles(event) || !event.dataTransfer) return;
       event.preventDefault();
       dropping.value = false;
-      void filesOf(event.dataTransfer).then(openFiles);
+      void filesOf(event.dataTransfer).then(openDropped);
     });
     return () => abort.abort();
   }, []);
@@ -66,7 +64,7 @@ function UploadNote() {
   return (
     <>
       {uploading.value && <div class="overlay" role="status"><p>Sending “{uploading.value}”…</p></div>}
-      {dropping.value && <div class="overlay drop" aria-hidden="true"><p>Drop a scene, a mesh, a folder or a zip to open it</p></div>}
+      {dropping.value && <div class="overlay drop" aria-hidden="true"><p>{takesParts.value ? 'Drop a texture to add it to this scene; a scene, a folder or a zip to open it' : 'Drop a scene, a mesh, a folder or a zip to open it'}</p></div>}
       {problem && (
         <div class="note-box" role="alert">
           <div><h2>{problem.title}</h2><Findings findings={problem.findings} /></div>

@@ -12,7 +12,8 @@ const LightNote = lazyView(() => import('./light_note.tsx').then((module) => mod
 
 export const focusStage = (): void => document.querySelector<HTMLElement>('.stage')?.focus({ preventScroll: true });
 
-export function Stage({ viewer, actions }: { viewer: Viewer; actions: Actions }) {
+/** `preview`: the address of a small image of the scene, for as long as there is no other. */
+export function Stage({ viewer, actions, preview }: { viewer: Viewer; actions: Actions; preview: string }) {
   const stage = useRef<HTMLDivElement>(null);
   const canvas = useRef<HTMLCanvasElement>(null);
   useEffect(() => {
@@ -44,6 +45,7 @@ export function Stage({ viewer, actions }: { viewer: Viewer; actions: Actions })
   return (
     <div class="stage" ref={stage} tabIndex={0} role="application" aria-label={`${title}. ${help}`} aria-busy={viewer.state.value === 'loading'}>
       <canvas ref={canvas} role="img" aria-label={`Picture of ${title}`} class={viewer.pictured.value ? '' : 'blank'} width={16} height={9} />
+      {preview && !viewer.pictured.value && <img class="preview" alt="" src={preview} onError={(event) => event.currentTarget.remove()} />}
       <HudView viewer={viewer} />
       {viewer.lightMode.value && <LightNote viewer={viewer} />}
     </div>

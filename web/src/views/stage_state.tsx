@@ -1,11 +1,11 @@
 // What lies over the picture to say how it stands with the scene: each state of its own look.
 import { signal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
-import type { Finding } from '../api.ts';
+import { findingsOf, sentence, type Finding } from '../api.ts';
 import { countFindings } from '../scene/state.ts';
 import type { Viewer } from '../scene/viewer.ts';
 import { Icon } from './icons.tsx';
-import { Findings } from './ui.tsx';
+import { Findings, say, type Repair } from './ui.tsx';
 
 const drawerOpen = signal(false);
 
@@ -16,6 +16,20 @@ export function countsText(findings: readonly Finding[]): string {
   const { errors, warnings } = countFindings(findings);
   return [errors && plural(errors, 'error'), warnings && plural(warnings, 'warning')].filter(Boolean).join(', ');
 }
+
+const attempt = (act: () => Promise<unknown>): void =>
+  void act().catch((fault: unknown) => say(findingsOf(fault).map((one) => sentence(one)).join(' ')));
+
+/** A missing file is added where its finding is: by the button, or dropped on it. */
+const repairOf = (viewer: Viewer) => (finding: Finding): Repair | null => {
+  const missing = viewer.missing.value.find((one) => one.finding === finding);
+  if (!missing) return null;
+  return {
+    label: `Add “${missing.name}”`,
+    choose: () => attempt(async () => (await import('../scene/take_files.ts')).chooseFor(viewer, missing)),
+    take: (files) => attempt(async () => (await import('../scene/take_files.ts')).addFiles(viewer, files.slice(0, 1), missing)),
+  };
+};
 
 /** The findings, over the lower edge of the picture: it keeps its size when there are some. */
 export function FindingsDrawer({ viewer, onPick }: { viewer: Viewer; onPick: (finding: Finding) => void }) {
@@ -33,7 +47,7 @@ export function FindingsDrawer({ viewer, onPick }: { viewer: Viewer; onPick: (fi
       <button type="button" class="drawer-tab" aria-expanded={open} aria-controls="drawer-body" onClick={() => (drawerOpen.value = !open)}>
         <Icon name={errors > 0 ? 'error' : 'warning'} /><span>{counts}</span><Icon name={open ? 'down' : 'up'} />
       </button>
-      <div class="drawer-body" id="drawer-body" hidden={!open}><Findings findings={findings} onPick={onPick} /></div>
+      <div class="drawer-body" id="drawer-body" hidden={!open}><Findings findings={findings} onPick={onPick} repair={repairOf(viewer)} /></div>
     </section>
   );
 }

@@ -37,8 +37,8 @@ export function Toolbar({ viewer }: { viewer: Viewer }) {
     if (viewer.edited.value) say('The link shows the scene as it is stored, without your edits.');
     void copy(location.href.replace(/#.*$/, '') + viewer.link(), 'Link');
   };
-  const png = (): void => {
-    const blob = viewer.still.value;
+  const png = async (): Promise<void> => {
+    const blob = await viewer.exactImage().catch((fault: unknown) => (viewer.report(fault), null));
     if (blob) saveBlob(blob, `${fileName(viewer)}.png`);
     else say('There is no full picture yet.');
   };
@@ -49,6 +49,8 @@ export function Toolbar({ viewer }: { viewer: Viewer }) {
   return (
     <div class="toolbar" role="toolbar" aria-label="Scene">
       <div class="tools">
+        <Tool icon="undo" label="Undo" keys="Ctrl+Z" disabled={!viewer.canUndo.value} onClick={() => viewer.undo()} />
+        <Tool icon="redo" label="Redo" keys="Ctrl+Shift+Z" disabled={!viewer.canRedo.value} onClick={() => viewer.redo()} />
         <Tool icon="home" label="Reset the view" keys="R" onClick={() => viewer.reset()} />
         <Tool icon="walk" label="Walk" keys="M" pressed={viewer.walk.value !== null} onClick={() => viewer.toggleWalk()} />
         <Tool icon="lamp" label="Light mode: A Z and X C turn the camera's light" keys="L" pressed={viewer.lightMode.value}
@@ -65,7 +67,7 @@ export function Toolbar({ viewer }: { viewer: Viewer }) {
       <div class="tools">
         <Tool icon="link" label="Copy a link to this view" onClick={share} />
         <Tool icon="terminal" label="Copy as curl" onClick={() => void copy(curlOf(viewer), 'Command')} />
-        <Tool icon="download" label="Download PNG" onClick={png} />
+        <Tool icon="download" label="Download PNG" onClick={() => void png()} />
         <Tool icon="fullscreen" label="Full screen" onClick={fullscreen} />
         <Tool icon="eye" label="Times and counts" pressed={hudShown.value} onClick={() => showHud(!hudShown.value)} />
         <Tool icon="help" label="Keys" onClick={() => (helpShown.value = true)} />

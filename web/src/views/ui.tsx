@@ -4,6 +4,9 @@ import type { ComponentChildren } from 'preact';
 import type { Finding } from '../api.ts';
 import { sentence } from '../api.ts';
 import { cureOf } from '../cures.ts';
+import { filesOf } from '../files.ts';
+import type { NamedFile } from '../scene/bundle.ts';
+import { dropping } from '../upload.ts';
 import { Icon, type IconName } from './icons.tsx';
 
 const toast = signal('');
@@ -36,13 +39,14 @@ interface ToolProps {
   label: string;
   keys?: string;
   pressed?: boolean;
+  disabled?: boolean;
   onClick: () => void;
   text?: string;
 }
 
-export const Tool = ({ icon, label, keys, pressed, onClick, text }: ToolProps) => (
+export const Tool = ({ icon, label, keys, pressed, disabled, onClick, text }: ToolProps) => (
   <button
-    type="button" class={text ? 'tool worded' : 'tool'} aria-label={label} onClick={onClick}
+    type="button" class={text ? 'tool worded' : 'tool'} aria-label={label} onClick={onClick} disabled={disabled ?? false}
     title={keys ? `${label} (${keys})` : label} {...(pressed === undefined ? {} : { 'aria-pressed': pressed })}
   >
     <Icon name={icon} />{text && <span>{text}</span>}
@@ -71,17 +75,47 @@ export const Section = ({ title, children }: { title: string; children: Componen
   <section class="section"><h3>{title}</h3>{children}</section>
 );
 
-export function Findings({ findings, onPick }: { findings: readonly Finding[]; onPick?: (finding: Finding) => void }) {
+/** What makes an element a place where files can be dropped. */
+export const dropHere = (take: (files: readonly NamedFile[]) => void) => ({
+  onDragOver(event: DragEvent) {
+    if (![...(event.dataTransfer?.types ?? [])].includes('Files')) return;
+    event.preventDefault();
+    event.stopPropagation();
+    dropping.value = false;
+    (event.currentTarget as HTMLElement).dataset['over'] = '';
+  },
+  onDragLeave(event: DragEvent) {
+    delete (event.currentTarget as HTMLElement).dataset['over'];
+  },
+  onDrop(event: DragEvent) {
+    event.preventDefault();
+    event.stopPropagation();
+    delete (event.currentTarget as HTMLElement).dataset['over'];
+    if (event.dataTransfer) void filesOf(event.dataTransfer).then(take);
+  },
+});
+
+/** `repair` answers a finding: what its button says, and what it does with the files that are chosen or dropped on it. */
+export interface Repair {
+  label: string;
+  choose: () => void;
+  take: (files: readonly NamedFile[]) => void;
+}
+
+export function Findings({ findings, onPick, repair }: {
+  findings: readonly Finding[]; onPick?: (finding: Finding) => void; repair?: (finding: Finding) => Repair | null;
+}) {
   const notable = findings.filter((one) => one.severity !== 'info');
   if (notable.length === 0) return null;
   return (
     <ol class="findings" aria-label="Findings">
-      {notable.map((finding, index) => (
-        <li key={index} class={finding.severity}>
+      {notable.map((finding, index) => [finding, index, repair?.(finding)] as const).map(([finding, index, answer]) => (
+        <li key={index} class={finding.severity} {...(answer ? dropHere(answer.take) : {})}>
           {finding.line && onPick
             ? <button type="button" class="plain" onClick={() => onPick(finding)}>{sentence(finding)}</button>
             : sentence(finding)}
           {cureOf(finding.code) && <small>{cureOf(finding.code)}</small>}
+          {answer && <button type="button" class="button small" onClick={answer.choose}><Icon name="upload" />{answer.label}</button>}
         </li>
       ))}
     </ol>

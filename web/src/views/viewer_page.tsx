@@ -2,10 +2,12 @@
 import { signal } from '@preact/signals';
 import { lazyView } from './lazy.tsx';
 import { useEffect, useMemo } from 'preact/hooks';
-import type { Finding } from '../api.ts';
+import { scenePath, type Finding } from '../api.ts';
+import { loadDraft } from '../scene/drafts.ts';
 import { parseView } from '../router.ts';
-import { local } from '../upload.ts';
+import { local, takesParts } from '../upload.ts';
 import { Viewer } from '../scene/viewer.ts';
+import { areParts } from '../scene/scene_files.ts';
 import { newScene } from '../scene/template.ts';
 import { recall, remember } from '../storage.ts';
 import { GonePage } from './gone.tsx';
@@ -15,13 +17,17 @@ import { TimeBar } from './time_bar.tsx';
 import { Toolbar } from './toolbar.tsx';
 import { ViewPanel } from './view_panel.tsx';
 
-export type PanelName = 'none' | 'view' | 'inspect' | 'xml';
+export type PanelName = 'none' | 'view' | 'inspect' | 'files' | 'xml';
 export const panel = signal<PanelName>('none');
 
-const tabs: [PanelName, string][] = [['view', 'View'], ['inspect', 'Inspect'], ['xml', 'XML']];
+/** Once it was opened the editor stays, with its place and selection. */
+const hadEditor = signal(false);
+
+const tabs: [PanelName, string][] = [['view', 'View'], ['inspect', 'Inspect'], ['files', 'Files'], ['xml', 'XML']];
 
 export function openPanel(name: PanelName): void {
   panel.value = name;
+  if (name === 'xml') hadEditor.value = true;
   remember('panel', name);
 }
 
@@ -33,7 +39,6 @@ function firstPanel(id: string | null): PanelName {
 }
 
 function Panel({ viewer }: { viewer: Viewer }) {
-  if (panel.value === 'none') return null;
   const keys = (event: KeyboardEvent): void => {
     const step = event.key === 'ArrowRight' ? 1 : event.key === 'ArrowLeft' ? -1 : 0;
     if (!step) return;
@@ -44,41 +49,68 @@ function Panel({ viewer }: { viewer: Viewer }) {
     document.getElementById(`tab-${next[0]}`)?.focus();
   };
   return (
-    <aside class={`panel of-${panel.value}`} aria-label="Settings and source">
+    <aside class={`panel of-${panel.value}`} aria-label="Settings and source" hidden={panel.value === 'none'}>
       <div class="tabs" role="tablist" aria-label="Panel" onKeyDown={keys}>
         {tabs.map(([name, text]) => (
-          <button key={name} type="button" role="tab" id={`tab-${name}`} aria-controls="panel-body"
-            aria-selected={panel.value === name} tabIndex={panel.value === name ? 0 : -1} onClick={() => openPanel(name)}>{text}</button>
+          <button key={name} type="button" role="tab" id={`tab-${name}`} aria-controls={`panel-${name}`}
+            aria-selected={panel.value === name} tabIndex={panel.value === name ? 0 : -1} onClick={() => openPanel(name)}>
+            {text}{name === 'files' && viewer.missing.value.length > 0 && <span class="count" title="missing">{viewer.missing.value.length}</span>}
+          </button>
         ))}
       </div>
-      <div class="panel-body" id="panel-body" role="tabpanel" aria-labelledby={`tab-${panel.value}`}>
-        {panel.value === 'view' && <ViewPanel viewer={viewer} />}
-        {panel.value === 'inspect' && <Inspector viewer={viewer} />}
-        {panel.value === 'xml' && <Editor viewer={viewer} />}
-      </div>
+      {tabs.map(([name]) => (
+        <div key={name} class="panel-body" id={`panel-${name}`} role="tabpanel" aria-labelledby={`tab-${name}`} hidden={panel.value !== name}>
+          {name === 'view' && panel.value === name && <ViewPanel viewer={viewer} />}
+          {name === 'inspect' && panel.value === name && <Inspector viewer={viewer} />}
+          {name === 'files' && panel.value === name && <FilesPanel viewer={viewer} />}
+          {name === 'xml' && hadEditor.value && <Editor viewer={viewer} />}
+        </div>
+      ))}
     </aside>
   );
 }
 
 const Inspector = lazyView(() => import('./inspector.tsx').then((module) => module.Inspector), 'the inspector');
+const FilesPanel = lazyView(() => import('./files_panel.tsx').then((module) => module.FilesPanel), 'the files');
 const Editor = lazyView(() => import('./editor.tsx').then((module) => module.Editor), 'the editor');
 
 export function ViewerPage({ id, view }: { id: string | null; view: URLSearchParams }) {
   const own = id === null ? local.peek() : null;
   const viewer = useMemo(() => {
     panel.value = firstPanel(id);
+    hadEditor.value = panel.value === 'xml';
     return new Viewer(id, own?.loose);
   }, [id]);
   useEffect(() => {
     void viewer.open(parseView(view), own?.text ?? newScene);
     const keep = (): void => viewer.flushDraft();
     addEventListener('pagehide', keep);
+    const historyKeys = (event: KeyboardEvent): void => {
+      const key = event.key.toLowerCase(), isRedo = key === 'y' || (key === 'z' && event.shiftKey);
+      if (!(event.ctrlKey || event.metaKey) || event.altKey || (key !== 'z' && key !== 'y')) return;
+      // Fields have a history of their own; the editor has none.
+      const field = event.composedPath()[0] as Element;
+      if (field.matches('input:not([type=range], [type=checkbox], [type=color]), textarea, select')) return;
+      event.preventDefault();
+      if (isRedo) viewer.redo();
+      else viewer.undo();
+    };
+    addEventListener('keydown', historyKeys);
+    takesParts.value = (files) => {
+      if (!areParts(viewer.missing.value, files)) return false;
+      void import('../scene/take_files.ts').then(({ addFiles }) => addFiles(viewer, files)).catch((fault: unknown) => viewer.report(fault));
+      return true;
+    };
     return () => {
       removeEventListener('pagehide', keep);
+      removeEventListener('keydown', historyKeys);
+      takesParts.value = null;
       viewer.close();
       if (own && local.peek() === own) local.value = null;
     };
   }, [viewer]);
+  // The thumbnail is of the scene as it is stored, by its own camera.
+  const preview = useMemo(() => (id !== null && view.toString() === '' && loadDraft(id) === null ? `${scenePath(id)}/thumbnail` : ''), [viewer]);
   const facts = viewer.facts.value;
   const title = facts?.title || (id ?? own?.name ?? 'Your scene');
   useEffect(() => {
@@ -112,7 +144,7 @@ export function ViewerPage({ id, view }: { id: string | null; view: URLSearchPar
         </div>
         <Toolbar viewer={viewer} />
         <div class={`stage-area is-${viewer.state.value}`}>
-          <Stage viewer={viewer} actions={{ pick: (x, y) => void pick(x, y), light: (a, b) => void light(a, b) }} />
+          <Stage viewer={viewer} preview={preview} actions={{ pick: (x, y) => void pick(x, y), light: (a, b) => void light(a, b) }} />
           <div class="stage-notes">
             <StageState viewer={viewer} onPick={showFinding} />
             <Notice viewer={viewer} />

@@ -1,1 +1,0 @@
-import{a,b,c}from"./chunk-Z4GKJY35.js";import"./chunk-MQQECXQ2.js";import"./chunk-SXKTCEWZ.js";import"./chunk-X6RJ2OPA.js";import"./chunk-NA3PELAW.js";export{a as cameraLightOf,b as turnCameraLight,c as turnLight};

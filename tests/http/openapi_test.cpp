@@ -151,7 +151,8 @@ TEST_CASE("every route answers with statuses that the document lists") {
                 target.replace(at, name.size(), value);
         if (key.first == "/v1/scenes/{id}/file") target += "?path=scene.xml";
         const std::string nonsense = target.find('?') == std::string::npos ? "?" : "&";
-        if (key.second == "delete") continue;  // store_test.cpp has its table
+        // store_test.cpp and assignments_test.cpp have their tables.
+        if (key.second == "delete" || key.first.starts_with("/v1/assignments")) continue;
         const std::string method = key.second == "post" ? "POST" : "GET";
         std::string body = method == "POST" ? "<world/>" : "";
         std::vector<std::pair<std::string, std::string>> type, unacceptable;

@@ -187,6 +187,8 @@ class Adapter {
         source(model);
         if (model.uv != scene::UvLayout::face)
             leaveOut("uv", message<"part.feature-uv">(), model.where);
+        if (model.opacity != 1.0F || (model.material && model.material->opacity != 1.0F))
+            leaveOut("opacity", message<"part.feature-opacity">(), model.where);
         if (model.autoLod) leaveOut("lod", message<"part.feature-lod">(), model.where);
         // The resolver makes planes of the 2017 dialect two-sided.
         const bool isSheet =

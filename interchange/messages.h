@@ -43,6 +43,7 @@ inline constexpr MessageRow kInterchangeMessages[] = {
     {"part.feature-loop", "motions that never meet again within an hour"},
     {"part.feature-mapping", "generated texture coordinates"},
     {"part.feature-ninth-light", "more than eight lights"},
+    {"part.feature-opacity", "opacity"},
     {"part.feature-settings", "the settings of <render>"},
     {"part.feature-skybox", "the skybox"},
     {"part.feature-two-sided", "models whose back faces are drawn"},

@@ -124,6 +124,7 @@ class ObjWriter {
             lines.row({in.r, in.g, in.b}, keyword);
         };
         color("Kd", colors.diffuse);
+        if (look.opacity < 1.0F) lines.row({look.opacity}, "d");
         if (subject_.isLit()) {
             color("Ka", glm::vec3(0.0F));
             color("Ke", colors.base);

@@ -61,6 +61,12 @@ std::shared_ptr<const render::MeshData> Subject::meshOf(const scene::Model& mode
     return meshes_.get(*coarse, model, *prepared_.assets, fineness);
 }
 
+bool Subject::isTransparent() const {
+    const auto chosen =
+        options().transparency ? options().transparency : scene().settings.transparency;
+    return chosen != scene::Transparency::off;
+}
+
 PhongColors Subject::colorsOf(const scene::Material& material, const glm::vec3& ambient,
                               const scene::Scene& in) const {
     PhongColors colors;
@@ -80,6 +86,7 @@ std::vector<Look> Subject::looksOf(const scene::Model& model, const render::Mesh
     const generator::Mesh& own = mesh.mesh;
     const auto finish = [&](Look& look, const scene::Texture* texture) {
         look.isTwoSided = model.twoSided;
+        if (!isTransparent() || hasLines) look.opacity = 1.0F;
         if (hasLines || texture == nullptr) return;
         if (!isLit_) look.colors.diffuse = glm::vec3(1.0F);
         if (texture->mapping == scene::Mapping::mesh && own.uvs().empty()) return;
@@ -96,6 +103,7 @@ std::vector<Look> Subject::looksOf(const scene::Model& model, const render::Mesh
             look.first = part.first;
             look.count = part.count;
             look.colors = colorsOf(material, material.diffuse.rgb * ambientOfWhite, in);
+            look.opacity = material.opacity * model.opacity;
             if (hasLines) look.colors.diffuse = glm::vec3(1.0F);
             look.name = part.material;
             finish(look, found != all.end() && found->texture ? &*found->texture : nullptr);
@@ -107,6 +115,7 @@ std::vector<Look> Subject::looksOf(const scene::Model& model, const render::Mesh
     Look look;
     look.count = own.indices().size();
     look.colors = colorsOf(material, scene::colorAt(material.ambient, timeS()), in);
+    look.opacity = material.opacity * model.opacity;
     if (hasLines && !model.material) look.colors.diffuse = glm::vec3(1.0F);
     if (!isDressed && !own.colors().empty() && !hasLines) {
         look.isColored = true;
@@ -213,7 +222,7 @@ std::vector<std::uint32_t> edgesOf(const std::vector<std::uint32_t>& indices) {
 }
 
 PortableImage imageOf(const scene::Texture& texture, const scene::Assets& assets) {
-    PortableImage out{{}, "image/png", "png"};
+    PortableImage out{{}, "image/png", "png", image::Alpha::opaque};
     if (texture.chess) {
         out.bytes = image::encodePng(render::chessBoard(*texture.chess));
         return out;
@@ -224,10 +233,11 @@ PortableImage imageOf(const scene::Texture& texture, const scene::Assets& assets
                     texture.where);
     std::string damage;
     const image::Image image = image::decodeImage(*file, texture.path, texture.where, &damage);
+    out.alpha = image::classifyAlpha(image);
     const bool isPng = image::hasSignature(*file, image::Format::png);
     if ((isPng || image::hasSignature(*file, image::Format::jpeg)) && damage.empty() &&
         image::orientationOf(*file) == 1) {
-        if (!isPng) out = {{}, "image/jpeg", "jpg"};
+        if (!isPng) out = {{}, "image/jpeg", "jpg", image::Alpha::opaque};
         out.bytes = std::move(*file);
         return out;
     }

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "image/alpha.h"
 #include "interchange/material.h"
 #include "render/plan/instances.h"
 #include "render/prepare.h"
@@ -18,7 +19,8 @@ struct Look {
     const scene::Texture* texture = nullptr;  ///< null: none
     bool isColored = false;                   ///< the mesh's own colours modulate
     bool isTwoSided = false;
-    std::string name;  ///< in its file; may be empty
+    float opacity = 1.0F;  ///< 0..1; 1 where the scene draws see-through parts opaque
+    std::string name;      ///< in its file; may be empty
 };
 
 /// A scene that is written for other programs, with the choices of a render of the same job. What
@@ -29,6 +31,8 @@ class Subject {
     explicit Subject(const render::Job& job);
 
     const scene::Scene& scene() const { return prepared_.scene; }
+    /// Whether the scene shows see-through parts of textures and materials.
+    bool isTransparent() const;
     const scene::Assets& assets() const { return *prepared_.assets; }
     Diagnostics& findings() { return prepared_.diagnostics; }
     const render::PictureOptions& options() const { return options_; }
@@ -86,6 +90,7 @@ struct PortableImage {
     std::string bytes;
     std::string_view mime;    ///< image/png or image/jpeg
     std::string_view ending;  ///< png or jpg
+    image::Alpha alpha = image::Alpha::opaque;
 };
 
 /// Returns a texture's image: the file itself if it is an undamaged PNG or JPEG without

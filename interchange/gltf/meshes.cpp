@@ -68,13 +68,14 @@ const GltfWriter::Geometry& GltfWriter::geometryOf(const render::MeshData& data,
     return geometry;
 }
 
-std::optional<int> GltfWriter::addTexture(const scene::Texture& texture) {
+std::optional<GltfWriter::Embedded> GltfWriter::addTexture(const scene::Texture& texture) {
     const render::TextureRef ref = render::refOf(texture, subject_.assets());
-    const auto [at, isNew] = images_.emplace(ref.key, -1);
+    const auto [at, isNew] = images_.emplace(ref.key, Embedded{});
     if (isNew) {
         const PortableImage image = imageOf(texture, subject_.assets());
         const int view = document_.addView(image.bytes, Target::none);
-        at->second = document_.addOnce("images", {{"bufferView", view}, {"mimeType", image.mime}});
+        at->second = {document_.addOnce("images", {{"bufferView", view}, {"mimeType", image.mime}}),
+                      image.alpha};
     }
     const scene::Filter filter = subject_.options().filter.value_or(ref.filter);
     json sampler{{"magFilter", filter == scene::Filter::nearest ? kNearest : kLinear},
@@ -82,8 +83,10 @@ std::optional<int> GltfWriter::addTexture(const scene::Texture& texture) {
                                : filter == scene::Filter::linear ? kLinear
                                                                  : kMipmapped}};
     if (ref.clamp) sampler["wrapS"] = sampler["wrapT"] = kClamped;
-    return document_.addOnce(
-        "textures", {{"sampler", document_.addOnce("samplers", sampler)}, {"source", at->second}});
+    const int index = document_.addOnce(
+        "textures",
+        {{"sampler", document_.addOnce("samplers", sampler)}, {"source", at->second.index}});
+    return Embedded{index, at->second.alpha};
 }
 
 int GltfWriter::addMaterial(const Look& look, bool hasLines) {
@@ -92,11 +95,18 @@ int GltfWriter::addMaterial(const Look& look, bool hasLines) {
     if (look.isTwoSided) material["doubleSided"] = true;
     json pbr{{"metallicFactor", 0}};
     std::optional<int> texture;
-    if (look.texture != nullptr) texture = addTexture(*look.texture);
+    image::Alpha alpha = look.opacity < 1.0F ? image::Alpha::blended : image::Alpha::opaque;
+    if (look.texture != nullptr) {
+        const std::optional<Embedded> image = addTexture(*look.texture);
+        if (image) texture = image->index;
+        if (image && subject_.isTransparent()) alpha = std::max(alpha, image->alpha);
+    }
+    if (alpha != image::Alpha::opaque)
+        material["alphaMode"] = alpha == image::Alpha::cutOut ? "MASK" : "BLEND";
     if (texture) pbr["baseColorTexture"] = {{"index", *texture}};
     const PhongColors& colors = look.colors;
     const auto setBase = [&](const glm::vec3& linear) {
-        pbr["baseColorFactor"] = {linear.r, linear.g, linear.b, 1};
+        pbr["baseColorFactor"] = {linear.r, linear.g, linear.b, look.opacity};
     };
     const bool isEmissive =
         isBlack(colors.diffuse) && isBlack(colors.specular) && !isBlack(colors.base);

@@ -20,6 +20,10 @@ class GltfWriter {
     WrittenScene write();
 
   private:
+    struct Embedded {
+        int index = -1;
+        image::Alpha alpha = image::Alpha::opaque;
+    };
     // writer.cpp: nodes.
     struct Parent {
         const scene::Scene* scene;
@@ -43,7 +47,7 @@ class GltfWriter {
                 const std::vector<Look>& looks);
     nlohmann::json attributesOf(const render::MeshData& data, const Look& look, bool hasNormals);
     int addMaterial(const Look& look, bool hasLines);
-    std::optional<int> addTexture(const scene::Texture& texture);
+    std::optional<Embedded> addTexture(const scene::Texture& texture);
 
     // lights.cpp
     std::optional<int> addLight(const scene::Light& light);
@@ -69,8 +73,8 @@ class GltfWriter {
     std::vector<MovingNode> moving_;
     nlohmann::json viewerNodes_ = nlohmann::json::array();  ///< children of the camera's node
     std::map<std::pair<std::uint64_t, std::string>, Geometry> geometries_;
-    std::map<std::string, int> images_;  ///< by path and version, or chess board
-    std::map<std::string, int> meshes_;  ///< by their primitives
+    std::map<std::string, Embedded> images_;  ///< by path and version, or chess board
+    std::map<std::string, int> meshes_;       ///< by their primitives
 };
 
 }  // namespace farol::interchange

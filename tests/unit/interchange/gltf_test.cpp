@@ -289,3 +289,16 @@ TEST_CASE("names of any bytes make a valid document") {
             "name=\"a\xc3\x28\"/></models></group></world>");
     CHECK_NOTHROW(test::GltfFile(written.bytes));
 }
+
+TEST_CASE("opacity is the alpha of the base colour, unless the scene draws without it") {
+    for (const bool isOff : {false, true}) {
+        const WrittenScene written = glb(std::string("<world><render transparency=\"") +
+                                         (isOff ? "off" : "on") + "\"/>" + kLit + R"(<group><models>
+            <model command="sphere 1" opacity="0.5"/></models></group></world>)");
+        const test::GltfFile file(written.bytes);
+        const json& material = file.json["materials"][0];
+        CAPTURE(isOff, material.dump());
+        CHECK(material["pbrMetallicRoughness"]["baseColorFactor"][3] == (isOff ? 1.0 : 0.5));
+        CHECK(material.contains("alphaMode") == !isOff);
+    }
+}

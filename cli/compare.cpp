@@ -90,8 +90,8 @@ void print(const grade::Comparison& found, Language language) {
                             "ssim"_arg = found.ssim ? number(*found.ssim) : "-",
                             "mean"_arg = number(found.flip.mean),
                             "median"_arg = number(found.flip.median),
-                            "p95"_arg = number(found.flip.p95), "p99"_arg = number(found.flip.p99),
-                            "max"_arg = number(found.flip.max)))
+                            "upper"_arg = number(found.flip.p95),
+                            "top"_arg = number(found.flip.p99), "max"_arg = number(found.flip.max)))
               << std::endl;
     if (found.counted < 1.0)
         std::cout << textIn(language, message<"part.compare/counted">(

@@ -50,7 +50,7 @@ int check(const MeshComparison& comparison, const std::string& bytes,
                          message<"part.mesh-check/counts">(
                              "file"_arg = uncut(comparison.file), "triangles"_arg = found.triangles,
                              "expected"_arg = found.expectedTriangles, "places"_arg = found.places,
-                             "expectedPlaces"_arg = found.expectedPlaces))
+                             "needed"_arg = found.expectedPlaces))
                   << "\n"
                   << textIn(report.language(), found.isRight()
                                                    ? message<"part.mesh-check/same">()

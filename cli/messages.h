@@ -66,7 +66,7 @@ inline constexpr MessageRow kCliMessages[] = {
     {"part.compare/same", "same pixel"},
     {"part.compare/size", "{width} x {height} pixels; levels are of 255", {"640", "480"}},
     {"part.compare/summary",
-     "PSNR {psnr} dB, SSIM {ssim}, FLIP mean {mean}, median {median}, p95 {p95}, p99 {p99}, max "
+     "PSNR {psnr} dB, SSIM {ssim}, FLIP mean {mean}, median {median}, p95 {upper}, p99 {top}, max "
      "{max}",
      {"31.2", "0.98", "0.1", "0.05", "0.4", "0.5", "0.9"}},
     {"part.compare/within", "% within {levels}", {"8"}},
@@ -75,7 +75,7 @@ inline constexpr MessageRow kCliMessages[] = {
     {"part.explain/image", "image {file}", {"earth.jpg"}},
     {"part.explain/met", "met"},
     {"part.explain/moves", "moves"},
-    {"part.explain/no", "no"},
+    {"part.explain/no", "no match"},
     {"part.explain/object",
      "{who}: {shape}, radius {radius}, in {depth} groups",
      {"model 4 (sphere)", "sphere", "1.5", "3"}},
@@ -85,10 +85,10 @@ inline constexpr MessageRow kCliMessages[] = {
     {"part.explain/still", "stands still"},
     {"part.explain/times", "times {times} s", {"0 5"}},
     {"part.explain/unmet", "not met"},
-    {"part.explain/yes", "yes"},
+    {"part.explain/yes", "match"},
     {"part.mesh-check/counts",
      "{file}: {triangles} triangles, expected {expected}; {places} vertices at different places, "
-     "expected {expectedPlaces}",
+     "expected {needed}",
      {"mine.3d", "178", "180", "92", "92"}},
     {"part.mesh-check/different", "it is not the expected mesh"},
     {"part.mesh-check/same", "it is the expected mesh"},

@@ -116,9 +116,10 @@ const Kind& kindOf(const std::string& code) {
 }
 
 std::string aboutKind(const std::string& code, Language language) {
+    std::string id = "part.kind/" + code;
+    std::replace(id.begin() + static_cast<std::ptrdiff_t>(id.find('/')), id.end(), '.', '-');
     for (const MessageRow& row : kKindMessages)
-        if (row.id.substr(row.id.find('/') + 1) == code)
-            return textIn(language, Message{std::string(row.id), std::string(row.text), {}});
+        if (row.id == id) return textIn(language, Message{id, std::string(row.text), {}});
     return code;
 }
 

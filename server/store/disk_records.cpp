@@ -17,10 +17,9 @@ namespace farol::server::store {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::string_view kMagic = "farol-record 1 ";
-constexpr std::size_t kDigits = 32;
-constexpr std::size_t kMaxFileBytes = std::size_t{2} << 30U;  // more than a body can be
-constexpr int kRetryAfterS = 60, kRetryAfterReadS = 5;
+constexpr std::string_view kRecordMagic = "farol-record 1 ";
+constexpr std::size_t kRecordDigits = 32;
+constexpr std::size_t kMaxRecordBytes = std::size_t{2} << 30U;  // more than a body can be
 
 /// "farol-record 1 DIGEST\nSECONDS\nBYTES"; SECONDS since 1970, 0: never.
 std::string encode(const std::string& bytes, Time expires) {
@@ -29,7 +28,7 @@ std::string encode(const std::string& bytes, Time expires) {
             ? 0
             : std::chrono::ceil<std::chrono::seconds>(expires.time_since_epoch()).count();
     const std::string body = std::to_string(seconds) + "\n" + bytes;
-    return std::string(kMagic) + contentDigest(body) + "\n" + body;
+    return std::string(kRecordMagic) + contentDigest(body) + "\n" + body;
 }
 
 std::optional<Time> expiryOf(std::string_view text) {
@@ -45,11 +44,11 @@ struct Record {
 };
 
 std::optional<Record> decode(std::string_view file) {
-    constexpr std::size_t kHead = kMagic.size() + kDigits + 1;
-    if (file.size() < kHead || !file.starts_with(kMagic) || file[kHead - 1] != '\n')
+    constexpr std::size_t kHead = kRecordMagic.size() + kRecordDigits + 1;
+    if (file.size() < kHead || !file.starts_with(kRecordMagic) || file[kHead - 1] != '\n')
         return std::nullopt;
     const std::string_view body = file.substr(kHead);
-    if (contentDigest(body) != file.substr(kMagic.size(), kDigits)) return std::nullopt;
+    if (contentDigest(body) != file.substr(kRecordMagic.size(), kRecordDigits)) return std::nullopt;
     const std::size_t end = body.find('\n');
     const auto expires = expiryOf(body.substr(0, end));
     if (end == std::string_view::npos || !expires) return std::nullopt;
@@ -86,7 +85,7 @@ void DiskRecords::put(const std::string& table, const std::string& key, const st
     const std::lock_guard lock(mutex_);
     const std::uint64_t before = sizeOf(path);
     if (bytes_ - before + file.size() > maxBytes_)
-        throw worker::Busy(message<"store.full">(), kRetryAfterS);
+        throw worker::Busy(message<"store.full">(), kRoomRetryS);
     std::error_code failed;
     fs::create_directories(folder_ + "/" + table, failed);
     const int error = failed ? failed.value() : writeDurably(folder_ + "/new/" + key, path, file);
@@ -94,17 +93,17 @@ void DiskRecords::put(const std::string& table, const std::string& key, const st
         log_("record " + table + "/" + key + " cannot be stored: " + std::strerror(error));
         const bool isFull = error == ENOSPC || error == EDQUOT || error == EFBIG;
         throw worker::Busy(isFull ? message<"store.full">() : message<"store.failed">(),
-                           kRetryAfterS);
+                           kRoomRetryS);
     }
     bytes_ += file.size() - before;
 }
 
 std::optional<std::string> DiskRecords::get(const std::string& table, const std::string& key) {
     const std::string path = pathOf(table, key);
-    const FileContent file = readWhole(path, kMaxFileBytes);
+    const FileContent file = readWhole(path, kMaxRecordBytes);
     if (file.kind == FileContent::Kind::failed) {
         log_("record " + table + "/" + key + " cannot be read: " + std::strerror(file.error));
-        throw worker::Busy(message<"store.failed/read">(), kRetryAfterReadS);
+        throw worker::Busy(message<"store.failed/read">(), kReadRetryS);
     }
     if (file.kind == FileContent::Kind::missing) return std::nullopt;
     const auto record = decode(file.bytes);
@@ -129,7 +128,7 @@ bool DiskRecords::remove(const std::string& table, const std::string& key) {
     const std::lock_guard lock(mutex_);
     std::error_code failed;
     if (!fs::exists(path, failed)) return false;
-    if (!drop(path)) throw worker::Busy(message<"store.failed/remove">(), kRetryAfterS);
+    if (!drop(path)) throw worker::Busy(message<"store.failed/remove">(), kRoomRetryS);
     return true;
 }
 
@@ -139,7 +138,7 @@ std::vector<std::string> DiskRecords::keys(const std::string& table) {
     for (const auto& file : fs::directory_iterator(folder_ + "/" + table, failed))
         if (out.size() < kMaxKeys) out.push_back(file.path().filename().string());
     if (failed && failed != std::errc::no_such_file_or_directory)
-        throw worker::Busy(message<"store.failed/read">(), kRetryAfterReadS);
+        throw worker::Busy(message<"store.failed/read">(), kReadRetryS);
     std::sort(out.begin(), out.end());
     return out;
 }
@@ -154,7 +153,7 @@ std::size_t DiskRecords::expire() {
         std::string head, seconds;
         if (!std::getline(bytes, head) || !std::getline(bytes, seconds)) continue;
         const auto expires = expiryOf(seconds);
-        if (head.starts_with(kMagic) && expires && *expires <= now())
+        if (head.starts_with(kRecordMagic) && expires && *expires <= now())
             over.push_back(file.path().string());
     }
     return static_cast<std::size_t>(std::count_if(

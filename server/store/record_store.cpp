@@ -10,18 +10,17 @@
 namespace farol::server::store {
 namespace {
 
-constexpr std::size_t kMaxName = 80;
-constexpr int kRetryAfterFullS = 60;
+constexpr std::size_t kMaxRecordName = 80;
 constexpr std::chrono::milliseconds kTryWindow = std::chrono::hours(1);
 
-std::int64_t msOf(Time time) {
+std::int64_t millisecondsOf(Time time) {
     return std::chrono::duration_cast<std::chrono::milliseconds>(time.time_since_epoch()).count();
 }
 
 }  // namespace
 
 bool isRecordName(const std::string& name) {
-    return !name.empty() && name.size() <= kMaxName && name.front() != '.' &&
+    return !name.empty() && name.size() <= kMaxRecordName && name.front() != '.' &&
            std::all_of(name.begin(), name.end(), [](char c) {
                return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-' || c == '.';
            });
@@ -40,7 +39,7 @@ Tries takeTry(std::vector<std::int64_t>& triesMs, const TryLimits& limits, Time 
     Tries out;
     if (count() >= all) return out;
     if (next() <= now) {
-        triesMs.push_back(msOf(now));
+        triesMs.push_back(millisecondsOf(now));
         out.isGranted = true;
     }
     out.left = all - count();
@@ -71,7 +70,7 @@ void MemoryRecords::put(const std::string& table, const std::string& key, const 
     const auto known = records_.find({table, key});
     const std::uint64_t before = known == records_.end() ? 0 : known->second.bytes.size();
     if (bytes_ - before + bytes.size() > maxBytes_)
-        throw worker::Busy(message<"store.full">(), kRetryAfterFullS);
+        throw worker::Busy(message<"store.full">(), kRoomRetryS);
     records_[{table, key}] = {bytes, expires};
     bytes_ += bytes.size() - before;
 }

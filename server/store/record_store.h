@@ -56,6 +56,7 @@ class RecordStore {
     void clear(const std::string& table);
 
     static constexpr std::size_t kMaxKeys = 10'000;
+    static constexpr int kRoomRetryS = 60, kReadRetryS = 5;  ///< of Busy
 
   private:
     std::mutex taking_;

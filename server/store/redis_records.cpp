@@ -12,12 +12,11 @@
 namespace farol::server::store {
 namespace {
 
-constexpr int kRetryAfterFullS = 60;
-constexpr int kMaxRounds = 1'000;  // of expiring, each of at most a thousand records
+constexpr int kMaxSweeps = 1'000;  // of expiring, each of at most a thousand records
 
 std::string nameOf(const std::string& table, const std::string& key) { return table + "/" + key; }
 
-std::string msOf(Time time) {
+std::string endText(Time time) {
     if (time == Time::max()) return "0";
     return std::to_string(
         std::chrono::duration_cast<std::chrono::milliseconds>(time.time_since_epoch()).count());
@@ -44,8 +43,8 @@ RedisReply RedisRecords::run(const char* script, const std::vector<std::string>&
 
 void RedisRecords::put(const std::string& table, const std::string& key, const std::string& bytes,
                        Time expires) {
-    if (run(redis::kPutRecord, {nameOf(table, key), bytes, msOf(expires), maxBytes_}).number == 0)
-        throw worker::Busy(message<"store.full">(), kRetryAfterFullS);
+    if (run(redis::kPutRecord, {nameOf(table, key), bytes, endText(expires), maxBytes_}).number == 0)
+        throw worker::Busy(message<"store.full">(), kRoomRetryS);
 }
 
 std::optional<std::string> RedisRecords::get(const std::string& table, const std::string& key) {
@@ -70,7 +69,7 @@ std::vector<std::string> RedisRecords::keys(const std::string& table) {
 std::size_t RedisRecords::expire() {
     std::size_t gone = 0;
     try {
-        for (int round = 0; round < kMaxRounds; ++round) {
+        for (int round = 0; round < kMaxSweeps; ++round) {
             const auto now = static_cast<std::size_t>(run(redis::kExpireRecords, {}).number);
             gone += now;
             if (now == 0) break;
@@ -87,7 +86,7 @@ Tries RedisRecords::take(const std::string& table, const std::string& key,
         run(redis::kTake,
             {nameOf(table, key), randomSecret(),
              std::to_string(std::clamp(limits.perHour, 1, kMaxTries)),
-             std::to_string(std::clamp(limits.all, 1, kMaxTries)), msOf(limits.forgotten)});
+             std::to_string(std::clamp(limits.all, 1, kMaxTries)), endText(limits.forgotten)});
     Tries out;
     out.isGranted = reply.parts.at(0).number == 1;
     out.left = static_cast<int>(reply.parts.at(1).number);

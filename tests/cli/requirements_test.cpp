@@ -21,11 +21,11 @@ constexpr const char* kScene2 = R"(<world><window width="64" height="64"/>
 
 constexpr const char* kRubric = R"({
   "times": [0, 1],
-  "define": [{ "id": "sun", "select": { "shape": ["sphere"], "moves": false } }],
+  "define": [{ "id": "centre", "select": { "shape": ["sphere"], "moves": false } }],
   "requirements": [
     { "id": "sun", "text": "A sun", "points": 2, "select": { "shape": ["sphere"], "moves": false } },
     { "id": "planets", "text": "Two planets", "points": 4, "count": 2,
-      "select": { "shape": ["sphere"], "turnsAbout": "sun" } },
+      "select": { "shape": ["sphere"], "turnsAbout": "centre" } },
     { "id": "cones", "text": "A cone or a torus", "points": 1, "select": { "shape": ["cone", "torus"] } }
   ]
 })";

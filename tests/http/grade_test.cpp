@@ -140,7 +140,9 @@ TEST_CASE("a rubric whose requirements have all points takes no reference") {
     const FilePart some{
         "rubric", "", R"({"points": 9, "requirements": [{"id": "a", "text": "t", "select": {}}]})",
         ""};
-    const FilePart wrong{"rubric", "", R"({"requirements": [{"id": "a", "cout": 1}]})", ""};
+    const FilePart wrong{"rubric", "",
+                         R"({"requirements": [{"id": "a", "text": "t", "select": {}, "cout": 1}]})",
+                         ""};
     const auto grade = [&](const std::vector<FilePart>& parts) {
         return post(server.port(), "/v1/grade", multipart(parts), kMultipartType);
     };

@@ -238,6 +238,7 @@ TEST_CASE("the last submission of a student is kept until its end") {
     Assignments assignments(records);
     Assignment arm;
     arm.id = "arm";
+    assignments.put(arm);
     const auto submission = [](const char* student, Time at, const std::string& bytes) {
         return KeptSubmission{student, "s.xml", at, bytes.size(), bytes};
     };

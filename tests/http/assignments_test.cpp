@@ -27,7 +27,8 @@ Headers bearer(const std::string& value) { return {{"Authorization", "Bearer " +
 struct School : FakeServer {
     explicit School(server::ServiceOptions options = withToken()) : FakeServer(std::move(options)) {
         backend.on<worker::ReferenceTask>([](const worker::ReferenceTask::Request& request) {
-            if (request.reference.job.xml == "<svg/>") throw Error("scene.root", "is no scene");
+            if (request.reference.job.xml == "<svg/>")
+                throw Error(Message{"scene.root", "is no scene", {}});
             return worker::ReferenceTask::Reply{};
         });
         backend.on<worker::AssignmentTask>([this](const worker::AssignmentTask::Request& request) {
@@ -227,7 +228,7 @@ TEST_CASE("tries count for a student, whatever the code, and end") {
     CHECK(school.check("arm", code).status == 429);
     // A document that cannot be read costs no try.
     school.backend.onRender = [](const render::Job& job) -> render::Picture {
-        if (job.xml == "<svg/>") throw Error("scene.root", "is no scene");
+        if (job.xml == "<svg/>") throw Error(Message{"scene.root", "is no scene", {}});
         return {};
     };
     school.put("arm", R"({"triesPerHour": 9, "tries": 3})");
@@ -299,7 +300,9 @@ TEST_CASE("faults of a check have one shape and leave at the same times") {
     std::set<std::string> bodies;
     int student = 0;
     const std::vector<std::function<void()>> faults = {
-        [] { throw Error("limit.cost", "the reference has 4.25 models"); },
+        [] {
+            throw Error(Message{"limit.cost", "the reference has 4.25 models", {}});
+        },
         [] { throw std::runtime_error("reference at 1 2 3"); },
         [] {
             throw worker::Busy(Message{"worker.crashed", "worker 7", {}}, 1);

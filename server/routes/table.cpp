@@ -21,6 +21,8 @@
     ROUTE("DELETE", "/v1/scenes/{id}", deleteScene, kWriting)                   \
     ROUTE("GET", "/v1/scenes/{id}/source", getSource, kPlain)                   \
     ROUTE("GET", "/v1/scenes/{id}/models", getModels, kPlain)                   \
+    ROUTE("GET", "/v1/scenes/{id}/files", listFiles, kPlain)                    \
+    ROUTE("GET", "/v1/scenes/{id}/file", getFile, kPlain)                       \
     ROUTE("GET", "/v1/scenes/{id}/turntable", getTurntable, kDrawing)           \
     ROUTE("GET", "/v1/scenes/{id}/image", getImage, kDrawing)                   \
     ROUTE("GET", "/v1/scenes/{id}/thumbnail", getThumbnail, kDrawing)           \
@@ -33,31 +35,6 @@
     ROUTE("GET", "/v1/assignments/{id}/submissions", getSubmissions, kTeachers) \
     ROUTE("POST", "/v1/assignments/{id}/check", postAssignmentCheck, kPlain)    \
     ROUTE("GET", "/v1/primitives", listPrimitives, kPlain)                      \
-#define FAROL_ROUTES(ROUTE)                                           \
-    ROUTE("GET", "/", getPage, kPlain)                                \
-    ROUTE("GET", "/plain", getPlainPage, kPlain)                      \
-    ROUTE("GET", "/assets/{file}", getAsset, kPlain)                  \
-    ROUTE("GET", "/openapi.yaml", getOpenApi, kPlain)                 \
-    ROUTE("GET", "/livez", getLivez, kPlain)                          \
-    ROUTE("GET", "/readyz", getReadyz, kPlain)                        \
-    ROUTE("GET", "/version", getVersion, kPlain)                      \
-    ROUTE("GET", "/metrics", getMetrics, kPlain)                      \
-    ROUTE("POST", "/v1/render", postRender, kDrawing)                 \
-    ROUTE("POST", "/v1/validate", postValidate, kPlain)               \
-    ROUTE("POST", "/v1/compare", postCompare, kPlain)                 \
-    ROUTE("POST", "/v1/grade", postGrade, kPlain)                     \
-    ROUTE("GET", "/v1/scenes", listScenes, kPlain)                    \
-    ROUTE("POST", "/v1/scenes", postScene, kWriting)                  \
-    ROUTE("GET", "/v1/scenes/{id}", getScene, kPlain)                 \
-    ROUTE("DELETE", "/v1/scenes/{id}", deleteScene, kWriting)         \
-    ROUTE("GET", "/v1/scenes/{id}/source", getSource, kPlain)         \
-    ROUTE("GET", "/v1/scenes/{id}/models", getModels, kPlain)         \
-    ROUTE("GET", "/v1/scenes/{id}/files", listFiles, kPlain)          \
-    ROUTE("GET", "/v1/scenes/{id}/file", getFile, kPlain)             \
-    ROUTE("GET", "/v1/scenes/{id}/turntable", getTurntable, kDrawing) \
-    ROUTE("GET", "/v1/scenes/{id}/image", getImage, kDrawing)         \
-    ROUTE("GET", "/v1/scenes/{id}/thumbnail", getThumbnail, kDrawing) \
-    ROUTE("GET", "/v1/primitives", listPrimitives, kPlain)            \
     ROUTE("GET", "/v1/primitives/{shape}", getPrimitive, kPlain)
 
 namespace farol::server {

@@ -12,7 +12,6 @@ import { Findings, Toast, Tool } from './ui.tsx';
 import { TokenDialog } from './token_dialog.tsx';
 import { ViewerPage } from './viewer_page.tsx';
 
-const dropping = signal(false);
 const AssignmentPage = lazyView(() => import('./assignment_page.tsx').then((module) => module.AssignmentPage), "the assignment's page");
 const GradePage = lazyView(() => import('./grade_page.tsx').then((module) => module.GradePage), 'the grade page');
 

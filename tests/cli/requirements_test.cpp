@@ -61,8 +61,9 @@ TEST_CASE("explain shows matches and misses with their lines, in the reader's la
              {"not met", "found", "stands still", "radius", "expected", " or "})
             CHECK_THAT(other.out, !Catch::Contains(english));
     }
-    writeFile("rubric.json",
-              "{\n \"requirements\": [{\"id\": \"a\", \"text\": \"t\", \"cout\": 3}]}");
+    writeFile(
+        "rubric.json",
+        "{\n \"requirements\": [{\"id\": \"a\", \"text\": \"t\", \"select\": {}, \"cout\": 3}]}");
     const Outcome wrong = run("explain rubric.json scene.xml");
     CHECK(wrong.status == 1);
     CHECK_THAT(wrong.err, Catch::Contains("rubric.json:2:") && Catch::Contains("did you mean"));

@@ -17,6 +17,13 @@ std::string listOf(const std::vector<std::string>& words) {
     return "[" + joined(words, ", ") + "]";
 }
 
+/// Words of which YAML 1.1 reads some (on, off) as booleans.
+std::string listOfWords(std::vector<std::string> words) {
+    for (std::string& word : words)
+        if (word == "on" || word == "off") word = "'" + word + "'";
+    return listOf(words);
+}
+
 std::string schemaOf(const render::OptionSpec& option) {
     using render::OptionType;
     switch (option.type) {
@@ -31,7 +38,7 @@ std::string schemaOf(const render::OptionSpec& option) {
         case OptionType::flag:
             return "{ type: string, enum: ['0', '1', 'false', 'true'] }";
         case OptionType::word:
-            return "{ type: string, enum: " + listOf(option.words) + " }";
+            return "{ type: string, enum: " + listOfWords(option.words) + " }";
         case OptionType::vector:
             return "{ type: string, pattern: '^[^,]+,[^,]+,[^,]+$', examples: ['3,2,5'] }";
         case OptionType::text:

@@ -40,7 +40,7 @@ TEST_CASE("pictures come in their order however long each takes, bottom row firs
     const auto open = [](const TextureRef& ref) {
         const int index = std::stoi(ref.key);
         return UndecodedTexture{
-            1 << (index % 26), 1, [index](std::string&) {
+            1 << (index % 26), 1, false, [index](std::string&) {
                 std::this_thread::sleep_for(std::chrono::milliseconds(index % 4 == 0 ? 5 : 0));
                 return column(index + 2);
             }};
@@ -85,7 +85,7 @@ TEST_CASE("without smaller levels where the filter reads none") {
         render::loadTextures(
             pointers(refs),
             [](const TextureRef&) {
-                return UndecodedTexture{1, 8, [](std::string&) { return column(8); }};
+                return UndecodedTexture{1, 8, false, [](std::string&) { return column(8); }};
             },
             {.onDecoded = [&](const TextureRef&,
                               const TextureLevels& got) { images = got.images.size(); }},
@@ -101,7 +101,7 @@ TEST_CASE("of several errors the first in order is thrown, whether of a head or 
             const auto open = [&](const TextureRef& ref) {
                 const int index = std::stoi(ref.key);
                 if (index == head) throw test::errorOf("image.unreadable", "head");
-                return UndecodedTexture{1, 1, [index, pixels](std::string&) -> Image {
+                return UndecodedTexture{1, 1, false, [index, pixels](std::string&) -> Image {
                                             if (index == pixels)
                                                 throw test::errorOf("image.unreadable", "pixels");
                                             return column(2);
@@ -130,7 +130,7 @@ TEST_CASE("textures over the limits are scaled down with a note, each axis for i
         render::loadTextures(
             pointers(refs),
             [&](const TextureRef&) {
-                return UndecodedTexture{1, height,
+                return UndecodedTexture{1, height, false,
                                         [height](std::string&) { return column(height); }};
             },
             {.onDecoded = [&](const TextureRef&, const TextureLevels& got) { levels = got; }}, gl);
@@ -160,7 +160,7 @@ TEST_CASE("a wide, low cross makes no faces many times its own size") {
     render::loadTextures(
         pointers(refs),
         [&](const TextureRef&) {
-            return UndecodedTexture{400, 3, [](std::string&) {
+            return UndecodedTexture{400, 3, false, [](std::string&) {
                                         Image cross{400, 3, {}};
                                         cross.pixels.assign(std::size_t{400} * 3 * 4, 7);
                                         return cross;

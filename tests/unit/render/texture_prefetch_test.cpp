@@ -28,7 +28,7 @@ struct Files {
     UndecodedTexture open(const TextureRef& ref) {
         ++opened;
         if (ref.key == "absent") throw test::errorOf("asset.missing", "absent");
-        return {width, height, [this, key = ref.key](std::string& damage) {
+        return {width, height, false, [this, key = ref.key](std::string& damage) {
                     ++decoded;
                     if (key == "broken") throw test::errorOf("image.unreadable", "broken");
                     damage = "cut off";

@@ -1,7 +1,9 @@
 #include <array>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
+#include <glm/vector_relational.hpp>
 
 #include "core/did_you_mean.h"
 #include "core/text.h"
@@ -218,9 +220,10 @@ void SceneBuilder::camera(pugi::xml_node element) {
 bool SceneBuilder::checkCamera(const Camera& camera, const Location& up, const Location& range) {
     const bool noUp = camera.up == glm::dvec3(0.0);
     if (noUp) findings().error(message<"scene.zero-direction/up">(), up);
-    const double size = std::fmax(glm::length(camera.eye), glm::length(camera.target));
     const glm::dvec3 view = camera.target - camera.eye;
-    const bool isPoint = glm::length(view) <= 1e-12 * size;
+    // Within rounding along each axis: far along one, the others still give a direction.
+    const glm::dvec3 size = glm::max(glm::abs(camera.eye), glm::abs(camera.target));
+    const bool isPoint = glm::all(glm::lessThanEqual(glm::abs(view), 1e-12 * size));
     if (isPoint)
         findings().error(message<"scene.camera/point">(), camera.where);
     else if (!noUp &&

@@ -58,7 +58,7 @@ void readSettings(const std::string& text, Assignment& out) {
     form.someOf("shows", out.view.shows, {words.begin(), words.end()}, "");
     form.integer("bands", out.view.bands, grade::kMinBands, grade::kMaxBands);
     form.flag("mask", out.view.hasMask);
-    form.flag("lendsFiles", out.lendsFiles);
+    form.flag("referenceFiles", out.referenceFiles);
     form.integer("triesPerHour", out.triesPerHour, 1, store::kMaxTries);
     form.integer("tries", out.tries, 1, store::kMaxTries);
     form.integer("retentionDays", out.retentionDays, 0, kMaxRetentionDays);
@@ -76,7 +76,7 @@ json settingsOf(const Assignment& assignment) {
                 {"shows", assignment.view.shows},
                 {"bands", assignment.view.bands},
                 {"mask", assignment.view.hasMask},
-                {"lendsFiles", assignment.lendsFiles},
+                {"referenceFiles", assignment.referenceFiles},
                 {"triesPerHour", assignment.triesPerHour},
                 {"tries", assignment.tries},
                 {"retentionDays", assignment.retentionDays}};
@@ -90,7 +90,7 @@ json settingsOf(const Assignment& assignment) {
 grade::Rubric Assignment::rules() const {
     grade::Rubric rules =
         rubric.empty() ? grade::defaultRubric() : grade::readRubric(rubric, "rubric.json");
-    rules.lend = lendsFiles;
+    rules.lend = referenceFiles;
     return rules;
 }
 
@@ -167,7 +167,7 @@ Assignment readAssignment(const std::string& id, std::vector<Part> parts) {
 
 json describe(const Assignment& assignment) {
     json out = settingsOf(assignment);
-    for (const char* hidden : {"lendsFiles", "retentionDays"}) out.erase(hidden);
+    for (const char* hidden : {"referenceFiles", "retentionDays"}) out.erase(hidden);
     out["id"] = assignment.id;
     const Time now = store::now();
     out["open"] = assignment.opens <= now && now < assignment.closes;

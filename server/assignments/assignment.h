@@ -19,7 +19,7 @@ struct Assignment {
     store::Time opens{};                      ///< the epoch: open from the start
     store::Time closes = store::Time::max();  ///< never
     grade::StudentView view{.shows = {"requirements", "document"}};
-    bool lendsFiles = false;  ///< the reference's files to submissions that lack them
+    bool referenceFiles = false;  ///< the reference's files to submissions that lack them
     /// Of one student: in an hour, and in all.
     int triesPerHour = grade::kDefaultTriesPerHour, tries = grade::kDefaultTries;
     int retentionDays = 0;                 ///< how long the last submission is kept; 0: not at all

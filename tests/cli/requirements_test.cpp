@@ -26,7 +26,7 @@ constexpr const char* kRubric = R"({
     { "id": "sun", "text": "A sun", "points": 2, "select": { "shape": ["sphere"], "moves": false } },
     { "id": "planets", "text": "Two planets", "points": 4, "count": 2,
       "select": { "shape": ["sphere"], "turnsAbout": "centre" } },
-    { "id": "cones", "text": "A cone or a torus", "points": 1, "select": { "shape": ["cone", "torus"] } }
+    { "id": "cones", "text": "A cone, else a torus", "points": 1, "select": { "shape": ["cone", "torus"] } }
   ]
 })";
 

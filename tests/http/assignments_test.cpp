@@ -92,7 +92,7 @@ TEST_CASE("a teacher keeps an assignment, and students see what is theirs") {
         R"({"title": "Robot arm", "closes": "2199-12-01T00:00:00Z", "shows": ["lights"], "tries": 5})");
     REQUIRE(put.status == 201);
     CHECK(put.json()["reference"]["bytes"] == 8);
-    CHECK(put.json()["lendsFiles"] == false);
+    CHECK(put.json()["referenceFiles"] == false);
     CHECK(school.put("arm", R"({"title": "Arm"})").status == 200);
 
     const Answer seen = get(school.port(), "/v1/assignments/arm");

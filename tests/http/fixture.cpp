@@ -12,6 +12,7 @@
 #include "worker/tasks/grade.h"
 #include "worker/tasks/inspect.h"
 #include "worker/tasks/mesh.h"
+#include "worker/tasks/model.h"
 #include "worker/tasks/notice.h"
 #include "worker/tasks/render.h"
 #include "worker/tasks/turntable.h"
@@ -59,6 +60,9 @@ FakeBackend::FakeBackend() {
                          request.animation
                              ? std::string(farol::image::specOf(*request.animation).mime)
                              : "multipart/x-mixed-replace; boundary=f");
+    });
+    on<ModelTask>([](const ModelTask::Request& request) {
+        return ModelTask::Reply{"model of " + request.job.name, {}};
     });
     on<NoticeTask>([](const NoticeTask::Request& request) {
         return pictureOf("picture of: " + request.text, "image/png");

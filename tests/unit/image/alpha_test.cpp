@@ -73,7 +73,7 @@ TEST_CASE("cut-outs keep their coverage from level to level") {
             preserveCoverage(image, levels);
             CAPTURE(side, whole);
             for (const Image& level : levels) {
-                if (level.width < 8) break;  // few texels have few shares
+                if (level.width * 8 <= side) break;  // a texel is the mean of a bar and its gap
                 CHECK(std::abs(coverage(level) - whole) < 0.2);
                 for (std::size_t i = 0; i < level.pixels.size(); i += 4)
                     CHECK(level.pixels[i] <= level.pixels[i + 3]);

@@ -43,7 +43,7 @@ std::set<std::string> codesInSources() {
             all.merge(
                 matches(readFile(entry.path()),
                         "\"((?:xml|scene|asset|shape|mesh|image|limit|option|http|busy|worker|"
-                        "bundle|store|grade|rubric|output|service|check|convert|requirement)"
+                        "bundle|store|grade|assignment|rubric|output|service|check|convert|requirement)"
                         "\\.[a-z]+(?:-[a-z]+)*|not-ready|internal|usage)(?:/[a-z-]+)?\""));
         }
     }

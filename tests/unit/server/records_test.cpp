@@ -267,7 +267,7 @@ TEST_CASE("an assignment is the same after it was kept") {
     arm.view.shows = {};
     arm.view.bands = 7;
     arm.view.hasMask = true;
-    arm.lendsFiles = true;
+    arm.referenceFiles = true;
     arm.triesPerHour = 4;
     arm.tries = 40;
     arm.retentionDays = 30;

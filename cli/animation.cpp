@@ -3,14 +3,22 @@
 #include <unistd.h>
 
 #include <cmath>
+#include <condition_variable>
 #include <cstdio>
+#include <deque>
+#include <exception>
 #include <iostream>
+#include <mutex>
+#include <numbers>
+#include <thread>
 
 #include "cli/command.h"
 #include "cli/files.h"
 #include "cli/messages.h"
 #include "core/text.h"
 #include "image/format.h"
+#include "image/sheet.h"
+#include "render/turn.h"
 
 namespace farol::cli {
 namespace {
@@ -24,7 +32,20 @@ void showProgress(int done, int all) {
 
 }  // namespace
 
-Schedule schedule(const AnimationFlags& flags, const render::SceneReport& report, double timeS) {
+SheetSize sheetSize(const std::string& text) {
+    SheetSize size;
+    char rest = 0;
+    if (std::sscanf(text.c_str(), "%3dx%3d%c", &size.columns, &size.rows, &rest) != 2 ||
+        size.columns < 1 || size.rows < 1 || size.columns > kMaxSheetSide ||
+        size.rows > kMaxSheetSide)
+        throw UsageError(message<"usage/sheet">("value"_arg = text, "max"_arg = kMaxSheetSide));
+    return size;
+}
+
+Schedule schedule(const AnimationFlags& given, const render::SceneReport& report, double timeS) {
+    AnimationFlags flags = given;
+    if (flags.sheet) flags.frames = flags.sheet->count();
+    if (flags.isVideo && !flags.frames && !flags.fps) flags.fps = kVideoFps;
     std::optional<double> loop;
     if (report.playS) loop = report.playS->y - report.playS->x;
     if (!(flags.frames && flags.fps) && !loop)
@@ -52,31 +73,139 @@ std::optional<image::AnimationFormat> animationFormat(const std::string& path,
     return std::nullopt;
 }
 
+namespace {
+
+/// Encodes frames in their order in a thread, at most kWaiting behind their drawing.
+class FrameEncoder {
+  public:
+    explicit FrameEncoder(image::AnimationWriter& animation)
+        : animation_(animation), thread_([this] { run(); }) {}
+    ~FrameEncoder() { end(); }
+    FrameEncoder(const FrameEncoder&) = delete;
+    FrameEncoder& operator=(const FrameEncoder&) = delete;
+
+    /// Throws the exception of an earlier frame.
+    void add(image::Image frame) {
+        std::unique_lock lock(mutex_);
+        changed_.wait(lock, [this] { return frames_.size() < kWaiting || failure_; });
+        if (failure_) std::rethrow_exception(failure_);
+        frames_.push_back(std::move(frame));
+        changed_.notify_all();
+    }
+    void finish() {
+        end();
+        if (failure_) std::rethrow_exception(failure_);
+    }
+
+  private:
+    static constexpr std::size_t kWaiting = 3;
+
+    void end() {
+        if (!thread_.joinable()) return;
+        {
+            const std::lock_guard lock(mutex_);
+            isLast_ = true;
+        }
+        changed_.notify_all();
+        thread_.join();
+    }
+    void run() {
+        for (;;) {
+            image::Image frame;
+            {
+                std::unique_lock lock(mutex_);
+                changed_.wait(lock, [this] { return !frames_.empty() || isLast_; });
+                if (frames_.empty()) return;
+                frame = std::move(frames_.front());
+                frames_.pop_front();
+            }
+            changed_.notify_all();
+            try {
+                animation_.add(frame);
+            } catch (...) {
+                const std::lock_guard lock(mutex_);
+                failure_ = std::current_exception();
+                frames_.clear();
+                changed_.notify_all();
+                return;
+            }
+        }
+    }
+
+    image::AnimationWriter& animation_;
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    std::deque<image::Image> frames_;
+    std::exception_ptr failure_;
+    bool isLast_ = false;
+    std::thread thread_;
+};
+
+}  // namespace
+
 render::Picture renderAnimation(render::Job job, const Schedule& schedule, const std::string& path,
                                 Outputs& outputs, render::GlSource gl) {
     const bool files = framePath(path, 0) != path;
     const std::optional<image::AnimationFormat> format = animationFormat(path, job.options.format);
     if (!files && !format) throw UsageError(message<"usage/frames-format">());
-    render::Renderer renderer(gl);
     std::unique_ptr<image::AnimationWriter> animation;
-    if (!files)
+    std::unique_ptr<FrameEncoder> encoder;
+    if (!files) {
         animation = image::specOf(*format).write({schedule.frames, schedule.fps,
                                                   job.options.background == "transparent",
                                                   job.options.quality});
+        encoder = std::make_unique<FrameEncoder>(*animation);
+    }
+    render::Renderer renderer(gl);
     render::Picture last;
     for (int i = 0; i < schedule.frames; ++i) {
         job.options.timeS = schedule.beginS + i / schedule.fps;
         image::Image image;
         last = renderer.draw(job, image);
         if (animation)
-            animation->add(image);
+            encoder->add(std::move(image));
         else
             outputs.write(0, image::encode(image, job.options.format, job.options.quality), i);
         showProgress(i + 1, schedule.frames);
     }
-    if (animation) outputs.write(0, animation->finish());
+    if (animation) {
+        encoder->finish();
+        outputs.write(0, animation->finish());
+    }
     last.contentType = animation ? std::string(image::specOf(*format).mime)
                                  : image::contentType(job.options.format);
+    return last;
+}
+
+render::Picture renderSheet(render::Job job, const SheetSize& size,
+                            const std::optional<Schedule>& schedule, Outputs& outputs,
+                            render::GlSource gl) {
+    render::Renderer renderer(gl);
+    image::Sheet sheet(size.columns, size.rows);
+    render::Picture last;
+    std::optional<scene::Camera> first;
+    for (int i = 0; i < size.count(); ++i) {
+        if (schedule)
+            job.options.timeS = schedule->beginS + i / schedule->fps;
+        else if (first)
+            render::turnEye(job.options, *first, 2.0 * std::numbers::pi * i / size.count());
+        image::Image image;
+        last = renderer.draw(job, image);
+        if (!first) {
+            first = last.camera;
+            const std::int64_t pixels = std::int64_t{last.width} * last.height * size.count();
+            if (pixels > render::kMaxPixels)
+                throw UsageError(message<"usage/sheet-pixels">("count"_arg = pixels,
+                                                               "max"_arg = render::kMaxPixels));
+        }
+        sheet.add(image);
+        showProgress(i + 1, size.count());
+    }
+    const image::Image whole = sheet.take();
+    outputs.write(0, image::encode(whole, job.options.format, job.options.quality));
+    last.contentType = image::contentType(job.options.format);
+    last.width = whole.width;
+    last.height = whole.height;
     return last;
 }
 

@@ -9,12 +9,26 @@
 
 namespace farol::cli {
 
-/// Values of --frames and --fps; both unset: a still image.
+/// Columns and rows of a sheet.
+struct SheetSize {
+    int columns = 0, rows = 0;
+    int count() const { return columns * rows; }
+};
+
+/// Values of --frames, --fps and --sheet; all unset: a still image.
 struct AnimationFlags {
     std::optional<int> frames;
     std::optional<double> fps;
-    bool isAnyGiven() const { return frames || fps; }
+    std::optional<SheetSize> sheet;
+    bool isVideo = false;  ///< the output's name asks for a format of animations alone
+    bool isAnyGiven() const { return frames || fps || sheet || isVideo; }
 };
+
+/// Reads "4x3", each 1 to kMaxSheetSide. Throws UsageError.
+SheetSize sheetSize(const std::string& text);
+inline constexpr int kMaxSheetSide = 64;
+/// Frames a second of a video where neither --frames nor --fps is given.
+inline constexpr double kVideoFps = 24.0;
 
 /// The frames of an animation: frame i shows the time `beginS + i / fps`, seconds.
 struct Schedule {
@@ -33,9 +47,15 @@ std::optional<image::AnimationFormat> animationFormat(const std::string& path,
                                                       image::Format format);
 
 /// Renders all frames into the first output, at `path`: one animation, or, with a %d (%04d) in it,
-/// one image a frame. Shows progress on stderr where that is a terminal. Returns the last
-/// image.
+/// one image a frame. Encodes a frame while the next one is drawn. Shows progress on stderr where
+/// that is a terminal. Returns the last image.
 render::Picture renderAnimation(render::Job job, const Schedule& schedule, const std::string& path,
                                 Outputs& outputs, render::GlSource gl);
+
+/// Renders one image of many into the first output: the frames of the schedule, or without one
+/// views from all sides. Throws Error limit.pixels where it would be too large.
+render::Picture renderSheet(render::Job job, const SheetSize& size,
+                            const std::optional<Schedule>& schedule, Outputs& outputs,
+                            render::GlSource gl);
 
 }  // namespace farol::cli

@@ -39,6 +39,7 @@ using Action = std::function<int(Report&)>;
 void addServe(CLI::App& root, Action& action);
 void addRender(CLI::App& root, Action& action);
 void addGenerate(CLI::App& root, Action& action);
+void addConvert(CLI::App& root, Action& action);
 void addValidate(CLI::App& root, Action& action);
 void addCompare(CLI::App& root, Action& action);
 void addGrade(CLI::App& root, Action& action);

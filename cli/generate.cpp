@@ -18,7 +18,7 @@
 namespace farol::cli {
 namespace {
 
-constexpr const char* kUsageLine = "farol generate SHAPE ARGS... OUT, or farol generate IN OUT";
+constexpr const char* kUsageLine = "farol generate SHAPE ARGS... OUT";
 constexpr const char* kEndings = "a name that ends with .3d, .obj, .ply or .3db, or - for stdout";
 
 struct Flags {
@@ -44,9 +44,7 @@ std::string allShapes() {
     std::string text =
         "Shapes, with their arguments in order (those in brackets may be left out):\n";
     for (const generator::ShapeEntry& shape : generator::shapes()) text += helpOf(shape);
-    return text +
-           "\nA mesh file (.3d .obj .ply .stl .off .tri .3db) in the place of the shape is "
-           "converted.";
+    return text;
 }
 
 /// Returns the words that are no flags. Numbers may be negative: the shape checks them.
@@ -60,13 +58,6 @@ std::vector<std::string> wordsOf(const CLI::App& command) {
     if (words.size() < 2)
         throw UsageError(message<"usage/generate">("usage"_arg = uncut(kUsageLine)));
     return words;
-}
-
-generator::Mesh convert(const std::string& bytes, const std::string& path, Report& report) {
-    Diagnostics findings;
-    generator::Mesh mesh = generator::io::decodeMesh(bytes, path, findings);
-    report.add(findings);
-    return mesh;
 }
 
 /// Runs a step that parses the shape's words. They are arguments: reports faults as UsageError.
@@ -135,8 +126,6 @@ int run(const CLI::App& command, const Flags& flags, Report& report) {
     std::vector<std::string> words = wordsOf(command);
     const std::string output = words.back();
     words.pop_back();
-    const bool converts = words.size() == 1 && generator::isMeshName(words.front()) &&
-                          generator::findShape(words.front()) == nullptr;
     using generator::io::Format;
     const auto format =
         output == "-" ? std::optional(Format::text3d) : generator::io::formatOf(output);
@@ -145,14 +134,7 @@ int run(const CLI::App& command, const Flags& flags, Report& report) {
     if (!format)
         throw UsageError(
             message<"usage/generate-format">("path"_arg = output, "known"_arg = uncut(kEndings)));
-    if (converts && !flags.uv.empty()) throw UsageError(message<"usage/generate-uv">());
     Confinement confinement{flags.confinement, {}, {output}};
-    if (converts) {
-        const std::string& path = words.front();
-        return confine(confinement, report, [&, bytes = readInput(path)](Outputs& outputs) {
-            return write(convert(bytes, path, report), *format, output, report, outputs);
-        });
-    }
     const LocatedCall shape = locate(asUsage([&] { return parse(words, report); }));
     confinement.readable = {shape.folder};
     return confine(confinement, report, [&](Outputs& outputs) {

@@ -66,6 +66,7 @@ int main(int argc, char** argv) {
     addRender(app, action);
     addServe(app, action);
     addGenerate(app, action);
+    addConvert(app, action);
     addValidate(app, action);
     addCompare(app, action);
     addGrade(app, action);
@@ -76,7 +77,7 @@ int main(int argc, char** argv) {
     addCompletion(app, action);
     addManual(app, action);
     addWorker(app, action);
-    for (const char* name : {"validate", "render", "generate", "compare", "grade"})
+    for (const char* name : {"validate", "render", "generate", "convert", "compare", "grade"})
         addLanguage(*app.get_subcommand(name), report);
     for (CLI::App* command : app.get_subcommands({}))
         if (command->get_option_no_throw("--json") == nullptr)  // of schema it is a form

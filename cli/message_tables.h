@@ -12,6 +12,7 @@
 #include "grade/requirements/messages.h"
 #include "grade/structure/messages.h"
 #include "image/messages.h"
+#include "interchange/messages.h"
 #include "render/plan/messages.h"
 #include "scene/messages.h"
 #include "server/messages.h"
@@ -30,6 +31,7 @@ inline std::vector<std::span<const MessageRow>> messageTables() {
             generator::kGeneratorMessages,
             generator::kCheckMessages,
             render::kRenderMessages,
+            interchange::kInterchangeMessages,
             grade::kGradeMessages,
             grade::kCauseMessages,
             grade::kReportMessages,

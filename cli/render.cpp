@@ -24,7 +24,7 @@ namespace {
 constexpr int kHeapBytes = 64 << 20;
 
 struct Flags {
-    std::string scene, output, assets;
+    std::string scene, output, assets, sheet;
     AnimationFlags animation;
     ConfinementFlags confinement;
     bool strict = false, stats = false, verbose = false;
@@ -45,7 +45,8 @@ render::PictureOptions pictureOptions(const Flags& flags) {
             }
     for (const image::AnimationSpec& format : image::kAnimations)
         for (const std::string_view word : split(format.endings))
-            known = known || (flags.animation.isAnyGiven() && ending == word);
+            known =
+                known || (flags.animation.isAnyGiven() && !flags.animation.sheet && ending == word);
     for (const auto& [name, value] : flags.picture) {
         render::applyOption(options, name, value);
         known = known || name == "format";
@@ -84,7 +85,14 @@ int draw(const Flags& flags, const render::Job& job, Report& report, Outputs& ou
         growHeap(kHeapBytes);
     Deadline deadline(flags.deadlineS, report, job.name);
     render::Picture picture;
-    if (flags.animation.isAnyGiven()) {
+    if (flags.animation.sheet) {
+        const render::SceneReport scene = render::inspect(job);
+        std::optional<Schedule> moments;
+        if (scene.playS || flags.animation.fps)
+            moments = schedule(flags.animation, scene, job.options.timeS);
+        picture = renderSheet(job, *flags.animation.sheet, moments, outputs, flags.gl);
+        report.set("frames", flags.animation.sheet->count());
+    } else if (flags.animation.isAnyGiven()) {
         const Schedule moments = schedule(flags.animation, render::inspect(job), job.options.timeS);
         picture = renderAnimation(job, moments, flags.output, outputs, flags.gl);
         report.set("frames", moments.frames);
@@ -114,7 +122,22 @@ int draw(const Flags& flags, const render::Job& job, Report& report, Outputs& ou
     return hasErrors ? kInputFault : kDone;
 }
 
-int run(const Flags& flags, Report& report) {
+/// Whether the name asks for a format that has no still images.
+bool isVideoName(const std::string& path) {
+    const std::string ending = fileEnding(path);
+    const auto hasEnding = [&](std::string_view endings) {
+        const auto words = split(endings);
+        return std::find(words.begin(), words.end(), ending) != words.end();
+    };
+    return std::any_of(image::kAnimations.begin(), image::kAnimations.end(),
+                       [&](const image::AnimationSpec& one) { return hasEnding(one.endings); }) &&
+           std::none_of(image::kFormats.begin(), image::kFormats.end(),
+                        [&](const image::FormatSpec& one) { return hasEnding(one.endings); });
+}
+
+int run(Flags flags, Report& report) {
+    if (!flags.sheet.empty()) flags.animation.sheet = sheetSize(flags.sheet);
+    flags.animation.isVideo = !flags.animation.sheet && isVideoName(flags.output);
     if (report.json() && flags.output == "-")
         throw UsageError(message<"usage/output-twice">("output"_arg = "-o -"));
     report.setVerbose(flags.verbose);
@@ -152,11 +175,19 @@ void addRender(CLI::App& root, Action& action) {
     command->add_flag("-v,--verbose", flags->verbose, "shows information beside warnings");
     CLI::Option* frames = command->add_option(
         "--frames", flags->animation.frames,
-        "renders an animation (.png, .webp, .gif) of that many frames; they make one loop unless "
-        "--fps is given");
-    CLI::Option* fps =
-        command->add_option("--fps", flags->animation.fps,
-                            "frames a second; without --frames as many as make one loop");
+        "renders an animation (.png, .webp, .gif, .mp4, .webm) of that many frames; they make one "
+        "loop unless --fps is given");
+    CLI::Option* fps = command->add_option("--fps", flags->animation.fps,
+                                           "frames a second; without --frames as many as make one "
+                                           "loop; default 24 for .mp4, .webm and "
+                                           ".gif");
+    command
+        ->add_option(
+            "--sheet", flags->sheet,
+            "renders one image of many: frames of one loop, or of a still scene views from "
+            "all sides; --width and --height are those of each")
+        ->type_name("COLUMNSxROWS")
+        ->group("Animation");
     takesNumber(command->add_option("--deadline", flags->deadlineS,
                                     "ends with limit.deadline after that many s; 0: no deadline"),
                 0.0, 86'400.0);

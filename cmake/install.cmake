@@ -13,6 +13,9 @@ if(TARGET farol_oiio)
     # Not the multiarch folder: the program looks for it beside its own prefix.
     install(TARGETS farol_oiio LIBRARY DESTINATION lib/farol COMPONENT farol-openexr)
 endif()
+if(TARGET farol_video)
+    install(TARGETS farol_video LIBRARY DESTINATION lib/farol COMPONENT farol-video)
+endif()
 install(DIRECTORY scenes/ DESTINATION ${CMAKE_INSTALL_DATADIR}/farol/scenes COMPONENT farol
         PATTERN make EXCLUDE PATTERN make_textures.py EXCLUDE PATTERN refused EXCLUDE
         PATTERN __pycache__ EXCLUDE)

@@ -21,7 +21,7 @@ int statusOf(const std::string& code) {
         {"grade.no-reference", 400},  {"not-ready", 503},
         {"store.unreachable", 503},   {"http.cross-site", 403},
         {"http.host-unknown", 421},   {"busy.scenes", 503},
-        {"busy.resources", 503},
+        {"busy.resources", 503},      {"option.unavailable", 422},
     };
     if (const auto found = kExact.find(code); found != kExact.end()) return found->second;
     for (const char* family : {"option.", "http.", "xml.", "bundle."})

@@ -62,7 +62,13 @@ std::unique_ptr<AnimationWriter> writeAnimatedWebp(const AnimationSettings& sett
 /// 1/100 s, without drift, at least 2/100 s, since browsers slow down shorter ones.
 std::unique_ptr<AnimationWriter> writeGif(const AnimationSettings& settings);
 
-enum class AnimationFormat { apng, webp, gif };
+/// H.264 in MP4 and VP9 in WebM, on black, by the module of FFmpeg's libraries (image/video/).
+/// A frame of odd size has one more column or row, a copy of its last. Throw Error
+/// option.unavailable where the module is not installed.
+std::unique_ptr<AnimationWriter> writeMp4(const AnimationSettings& settings);
+std::unique_ptr<AnimationWriter> writeWebm(const AnimationSettings& settings);
+
+enum class AnimationFormat { apng, webp, gif, mp4, webm };
 
 struct AnimationSpec {
     std::string_view name;     ///< as parameters write it
@@ -81,6 +87,9 @@ inline constexpr std::array kAnimations{
     AnimationSpec{"animated-webp", "image/webp", "webp", "RIFF????WEBP", 6, writeAnimatedWebp},
     // LZW codes of at most 12 bits, of which one clears the table every 4,096.
     AnimationSpec{"gif", "image/gif", "gif", "GIF89a", 2, writeGif},
+    // Macroblocks of raw samples, 12 bits a pixel, and packets' heads.
+    AnimationSpec{"mp4", "video/mp4", "mp4", "????ftyp", 4, writeMp4},
+    AnimationSpec{"webm", "video/webm", "webm", "\x1A\x45\xDF\xA3", 4, writeWebm},
 };
 inline constexpr AnimationFormat kLastAnimation{kAnimations.size() - 1};
 

@@ -16,6 +16,10 @@ inline constexpr MessageRow kImageMessages[] = {
     {"limit.texture",
      "image \"{name}\" is {size}; expected at most {max} million pixels. Scale the image down",
      {"brick.png", "20000 x 20000 px", "64"}},
+    {"option.unavailable",
+     "format \"{format}\" needs the video module, which cannot be loaded: {reason}; build with "
+     "-DFAROL_VIDEO=ON and install it, or choose gif, apng or animated-webp",
+     {"mp4", "libfarol_video.so: cannot open shared object file"}},
 };
 
 /// A message of this floor's table.

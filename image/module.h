@@ -24,9 +24,6 @@ struct ModuleRequest {
 /// installed.
 void readByModule(const ModuleRequest& request);
 
-/// The module's file, which a sandbox must leave readable.
-const char* moduleFile();
-
 /// The module's one function, by this name. Returns null, or why the file is not decoded: a text
 /// that lasts until the next call. One call at a time.
 using ModuleRead = const char* (*)(const ModuleRequest& request);

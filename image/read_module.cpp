@@ -1,7 +1,6 @@
 #include <dlfcn.h>
 #include <malloc.h>
 
-#include <filesystem>
 #include <mutex>
 #include <new>
 #include <stdexcept>
@@ -9,23 +8,11 @@
 #include <thread>
 
 #include "core/build_id.h"
+#include "image/load_module.h"
 #include "image/module.h"
 
 namespace farol::image {
 namespace {
-
-namespace fs = std::filesystem;
-
-std::string findModule() {
-    std::error_code failed;
-    const fs::path folder = fs::read_symlink("/proc/self/exe", failed).parent_path();
-    // Beside the program (built or copied), installed, or one or two folders above the tests.
-    for (const char* place : {"", "../lib/farol", "..", "../.."}) {
-        const fs::path file = folder / place / FAROL_OIIO_MODULE;
-        if (fs::exists(file, failed)) return file.lexically_normal().string();
-    }
-    return (folder / FAROL_OIIO_MODULE).string();
-}
 
 /// Silences libgcrypt, which a library of the module starts: in a sandbox it warns on standard
 /// error, because it cannot lock memory. No secrets are here.
@@ -39,18 +26,16 @@ void silenceGcrypt() {
 }
 
 ModuleRead load() {
-    buildId();  // before dlopen: excludes the libraries that the module loads
+    buildId();  // before dlopen: excludes the libraries that are loaded now
     silenceGcrypt();
-    void* module = dlopen(moduleFile(), RTLD_NOW | RTLD_LOCAL);
-    void* function = module == nullptr ? nullptr : dlsym(module, kModuleRead);
-    if (function == nullptr) {
-        const char* why = dlerror();
+    try {
+        return reinterpret_cast<ModuleRead>(
+            loadFunction(findModule(FAROL_OIIO_MODULE), kModuleRead));
+    } catch (const std::runtime_error& error) {
         throw std::runtime_error(
-            std::string("the module that reads this format cannot be loaded: ") +
-            (why == nullptr ? "it has no reader" : why) +
+            std::string("the module that reads this format cannot be loaded: ") + error.what() +
             "; fix: install it and OpenImageIO 2.4, or save the image as PNG or Radiance HDR");
     }
-    return reinterpret_cast<ModuleRead>(function);
 }
 
 /// While it lives, malloc hands out zeroed memory: M_PERTURB writes the complement of its value.
@@ -64,11 +49,6 @@ class ZeroedMemory {
 };
 
 }  // namespace
-
-const char* moduleFile() {
-    static const std::string file = findModule();
-    return file.c_str();
-}
 
 void readByModule(const ModuleRequest& request) {
     static std::mutex mutex;

@@ -122,6 +122,7 @@ json linksOf(const ServedScene& scene, const std::string& basePath) {
             {"image", self + "/image"},
             {"thumbnail", self + "/thumbnail"},
             {"turntable", self + "/turntable"},
+            {"model", self + "/model"},
             {"models", self + "/models"}};
 }
 

@@ -10,7 +10,7 @@ import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-FLOORS = ["core", "image", "scene", "generator", "render", "grade", "worker", "server"]
+FLOORS = ["core", "image", "scene", "generator", "render", "interchange", "grade", "worker", "server"]
 
 
 def read_counts(build, floors):

@@ -13,7 +13,7 @@
 #include <filesystem>
 #include <sstream>
 
-#include "image/module.h"
+#include "image/load_module.h"
 
 namespace farol::worker {
 namespace {
@@ -95,12 +95,10 @@ void addLibraryFolders(std::vector<std::string>& readable) {
 
 /// Files that the program and its libraries load.
 std::vector<std::string> programFiles() {
-    std::vector<std::string> files{"/usr",
-                                   "/lib",
-                                   "/lib64",
-                                   "/sys/devices/system/cpu",
-                                   "/etc/ld.so.cache",
-                                   image::moduleFile()};
+    std::vector<std::string> files{"/usr", "/lib", "/lib64", "/sys/devices/system/cpu",
+                                   "/etc/ld.so.cache"};
+    const std::vector<std::string>& modules = image::moduleFiles();
+    files.insert(files.end(), modules.begin(), modules.end());
     addLibraryFolders(files);
     return files;
 }
@@ -121,12 +119,13 @@ void closeSandbox(const SandboxOptions& options, Layers& layers) {
     signal(SIGXFSZ, SIG_IGN);
     if (!kSanitized && !limit(RLIMIT_FSIZE, 0)) layers.emplace_back("fileSize", missing());
     // From here on only reading: scenes, the libraries that Mesa loads at its first draw call,
-    // those of the module, and Mesa's shader cache. A worker that could write to the cache could
+    // those of the modules, and Mesa's shader cache. A worker that could write to the cache could
     // leave code for later workers.
     std::vector<std::string> readable = options.readable;
     for (const char* path : {"/usr/lib", "/lib", "/lib64", "/etc/ld.so.cache"})
         readable.emplace_back(path);
-    readable.emplace_back(image::moduleFile());
+    const std::vector<std::string>& modules = image::moduleFiles();
+    readable.insert(readable.end(), modules.begin(), modules.end());
     addLibraryFolders(readable);
     readable.push_back(shaderCache());
     restrictFiles(readable, {});

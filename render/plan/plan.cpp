@@ -22,8 +22,6 @@ namespace farol::render {
 namespace {
 
 constexpr int kDefaultSide = 512;
-// Where the third-person camera holds its entity: in front of the eye, in eye space.
-constexpr glm::dvec3 kEntityPlace{0.0, 0.0, -3.0};
 // Half the diagonal of a sheared box is at most sqrt(3) times the root of its squared edges.
 constexpr double kShear = 1.7320508075688774;
 
@@ -104,9 +102,7 @@ class Planner {
     void chooseStyle(const InstanceList& list) {
         style_.samples =
             options_.samples.value_or(scene_.settings.samples.value_or(samplesFor(errorPx_)));
-        style_.shading = options_.shading          ? *options_.shading
-                         : scene_.settings.shading ? *scene_.settings.shading
-                                                   : automaticShading(scene_, list);
+        style_.shading = chooseShading(scene_, options_, list);
         style_.layer = options_.layer;
         // Ids, depths and normals have no meaning between two surfaces.
         if (style_.layer != Layer::color) style_.samples = 1;
@@ -115,10 +111,7 @@ class Planner {
         errorPx_ = errorOf(errorPx_, style_.samples);
         if (crowd_.isOneSample) style_.samples = 1;
         errorPx_ *= crowd_.coarsening;
-        const bool surface = style_.shading == scene::Shading::flat ||
-                             style_.shading == scene::Shading::gouraud ||
-                             style_.shading == scene::Shading::phong;
-        style_.lit = surface && !list.lights.empty() && style_.layer == Layer::color;
+        style_.lit = isLit(style_.shading, list) && style_.layer == Layer::color;
         style_.viewer =
             options_.viewer.value_or(scene_.settings.viewer.value_or(scene::Viewer::infinite));
         style_.specular =
@@ -437,6 +430,18 @@ class Planner {
 };
 
 }  // namespace
+
+scene::Shading chooseShading(const scene::Scene& scene, const PictureOptions& options,
+                             const InstanceList& list) {
+    if (options.shading) return *options.shading;
+    return scene.settings.shading ? *scene.settings.shading : automaticShading(scene, list);
+}
+
+bool isLit(scene::Shading shading, const InstanceList& list) {
+    const bool isSurface = shading == scene::Shading::flat || shading == scene::Shading::gouraud ||
+                           shading == scene::Shading::phong;
+    return isSurface && !list.lights.empty();
+}
 
 glm::ivec2 pictureSize(const scene::Scene& scene, const PictureOptions& options) {
     const scene::Window window = scene.window.value_or(scene::Window{kDefaultSide, kDefaultSide});

@@ -23,6 +23,7 @@
     ROUTE("GET", "/v1/scenes/{id}/models", getModels, kPlain)         \
     ROUTE("GET", "/v1/scenes/{id}/files", listFiles, kPlain)          \
     ROUTE("GET", "/v1/scenes/{id}/file", getFile, kPlain)             \
+    ROUTE("GET", "/v1/scenes/{id}/model", getModel, kPlain)           \
     ROUTE("GET", "/v1/scenes/{id}/turntable", getTurntable, kDrawing) \
     ROUTE("GET", "/v1/scenes/{id}/image", getImage, kDrawing)         \
     ROUTE("GET", "/v1/scenes/{id}/thumbnail", getThumbnail, kDrawing) \

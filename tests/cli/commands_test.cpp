@@ -140,13 +140,13 @@ TEST_CASE("a written mesh reads back, in every format") {
     CHECK_THAT(made.out, Catch::Contains("triangles"));
     for (const std::string through : {"b.obj", "b.ply", "b.3db", "b.3d"}) {
         INFO(through);
-        CHECK(run("generate a.3d " + through).status == 0);
-        CHECK(run("generate " + through + " c.3d").status == 0);
+        CHECK(run("convert a.3d " + through).status == 0);
+        CHECK(run("convert " + through + " c.3d").status == 0);
         CHECK(readFile("c.3d") == readFile("a.3d"));
     }
     CHECK(run("generate patch teapot.patch 4 t.3d").status == 0);  // built in
     CHECK(run("generate plane 1 3 u.3d --uv atlas").status == 0);
-    CHECK(run("generate a.3d u.3d --uv atlas").status == 2);
+    CHECK(run("generate a.3d u.3d").status == 2);
 }
 
 TEST_CASE("an output appears whole, and keeps its mode") {

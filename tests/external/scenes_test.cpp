@@ -4,9 +4,9 @@
 #include <fstream>
 
 #include "scene/read/reader.h"
+#include "scene/write/writer.h"
 #include "tests/support/paths.h"
 #include "tests/support/scene_equality.h"
-#include "tests/support/scene_writer.h"
 #include "tests/support/skip.h"
 
 using namespace farol;

@@ -1,10 +1,10 @@
 // The canonical writer: what was read, written and read again is the same scene.
 #include "scene/read/reader.h"
+#include "scene/write/writer.h"
 #include "tests/fuzz/checks.h"
 #include "tests/fuzz/scene_words.h"
 #include "tests/fuzz/target.h"
 #include "tests/support/scene_equality.h"
-#include "tests/support/scene_writer.h"
 
 namespace farol::fuzz {
 

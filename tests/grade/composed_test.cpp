@@ -7,8 +7,8 @@
 #include <map>
 
 #include "classroom.h"
+#include "scene/write/writer.h"
 #include "sheet.h"
-#include "tests/support/scene_writer.h"
 
 // Submissions with several mistakes at once: are the causes found, with their lines, and are marks
 // in the order of what was planted? FAROL_COMPOSED is the number of submissions a scene, and

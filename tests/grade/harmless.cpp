@@ -7,7 +7,7 @@
 #include "classroom.h"
 #include "image/format.h"
 #include "image/image_file.h"
-#include "tests/support/scene_writer.h"
+#include "scene/write/writer.h"
 
 namespace farol::test {
 namespace {

@@ -23,7 +23,7 @@ class Dice {
     std::uint64_t state_;
 };
 
-/// A document, one element a line, as tests/support/scene_writer.h writes it.
+/// A document, one element a line, as scene/write/writer.h writes it.
 class Sheet {
   public:
     explicit Sheet(const std::string& xml);

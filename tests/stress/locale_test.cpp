@@ -8,9 +8,9 @@
 
 #include "scene/files/assets.h"
 #include "scene/read/reader.h"
+#include "scene/write/writer.h"
 #include "tests/support/comma_locale.h"
 #include "tests/support/paths.h"
-#include "tests/support/scene_writer.h"
 
 using namespace farol;
 

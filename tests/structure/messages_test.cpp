@@ -34,8 +34,8 @@ std::string handmade(const std::string& source) {
 
 TEST_CASE("no diagnostic is made outside the message catalogue") {
     int files = 0;
-    for (const char* floor :
-         {"core", "image", "scene", "generator", "render", "grade", "worker", "server", "cli"})
+    for (const char* floor : {"core", "image", "scene", "generator", "render", "interchange",
+                              "grade", "worker", "server", "cli"})
         for (const auto& entry :
              fs::recursive_directory_iterator(fs::path(farol::test::kSourceDir) / floor)) {
             const std::string ending = entry.path().extension().string();
@@ -57,8 +57,8 @@ TEST_CASE("each table of messages is in the list of all tables") {
     const std::string list = readFile(root / "cli" / "message_tables.h");
     static const std::regex kTable("constexpr MessageRow (k[A-Za-z0-9]+)\\[\\]");
     int tables = 0;
-    for (const char* floor :
-         {"core", "image", "scene", "generator", "render", "grade", "worker", "server", "cli"})
+    for (const char* floor : {"core", "image", "scene", "generator", "render", "interchange",
+                              "grade", "worker", "server", "cli"})
         for (const auto& entry : fs::recursive_directory_iterator(root / floor)) {
             if (entry.path().extension() != ".h") continue;
             const std::string source = readFile(entry.path());

@@ -8,7 +8,7 @@
 #include "generator/sources.h"
 #include "image/image_file.h"
 #include "scene/read/reader.h"
-#include "tests/support/scene_writer.h"
+#include "scene/write/writer.h"
 
 namespace farol::bench {
 namespace {

@@ -9,6 +9,7 @@
 #include "worker/tasks/inspect.h"
 #include "worker/tasks/mesh.h"
 #include "worker/tasks/mesh_check.h"
+#include "worker/tasks/model.h"
 #include "worker/tasks/notice.h"
 #include "worker/tasks/render.h"
 #include "worker/tasks/turntable.h"
@@ -35,10 +36,10 @@ constexpr TaskEntry entryOf() {
 
 std::span<const TaskEntry> tasks() {
     static constexpr TaskEntry kTasks[] = {
-        entryOf<CheckTask>(),     entryOf<CompareTask>(), entryOf<GradeTask>(),
-        entryOf<InspectTask>(),   entryOf<MeshTask>(),    entryOf<MeshCheckTask>(),
-        entryOf<NoticeTask>(),    entryOf<RenderTask>(),  entryOf<ReferenceTask>(),
-        entryOf<TurntableTask>(), entryOf<UnpackTask>()};
+        entryOf<CheckTask>(),     entryOf<CompareTask>(),   entryOf<GradeTask>(),
+        entryOf<InspectTask>(),   entryOf<MeshTask>(),      entryOf<MeshCheckTask>(),
+        entryOf<ModelTask>(),     entryOf<NoticeTask>(),    entryOf<RenderTask>(),
+        entryOf<ReferenceTask>(), entryOf<TurntableTask>(), entryOf<UnpackTask>()};
     return kTasks;
 }
 

@@ -1,28 +1,14 @@
 #include "worker/tasks/turntable.h"
 
 #include <glm/gtc/constants.hpp>
-#include <glm/gtx/rotate_vector.hpp>
 
 #include "render/plan/cost.h"
+#include "render/turn.h"
 #include "worker/scene_facts.h"
 #include "worker/state.h"
 
 namespace farol::worker {
 namespace {
-
-/// Sets the camera of a later frame: the first frame's, turned by `angle` rad about its target.
-void turnEye(render::PictureOptions& options, const scene::Camera& first, double angle) {
-    options.azimuthDeg.reset();
-    options.elevationDeg.reset();
-    options.distance.reset();
-    options.eye =
-        first.target + glm::rotate(first.eye - first.target, angle, glm::normalize(first.up));
-    options.target = first.target;
-    options.up = first.up;
-    options.fovDeg = first.fovDeg;
-    options.near = first.near;
-    options.far = first.far;
-}
 
 void appendPart(std::string& body, const render::Picture& picture) {
     body.append("--").append(kFrameBoundary).append("\r\nContent-Type: ");
@@ -44,7 +30,8 @@ render::Picture TurntableTask::run(const Request& request, WorkerState& state) {
     std::string body;
     state.renderer.budget().expectFrames(request.frames);
     for (int i = 0; i < request.frames; ++i) {
-        if (i > 0) turnEye(job.options, all.camera, glm::two_pi<double>() * i / request.frames);
+        if (i > 0)
+            render::turnEye(job.options, all.camera, glm::two_pi<double>() * i / request.frames);
         render::Picture frame;
         if (animation) {
             image::Image image;

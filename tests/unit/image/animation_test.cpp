@@ -130,7 +130,14 @@ TEST_CASE("an animated WebP holds its frames and times") {
 TEST_CASE("every writer refuses frames of another size, and too few or too many") {
     for (const image::AnimationSpec& format : image::kAnimations) {
         INFO(format.name);
-        const auto writer = format.write({2, 10.0, true, 80});
+        std::unique_ptr<image::AnimationWriter> writer;
+        try {
+            writer = format.write({2, 10.0, true, 80});
+        } catch (const Error& error) {
+            CHECK(error.code() == "option.unavailable");  // the module is built on request
+            CHECK(format.mime.starts_with("video/"));
+            continue;
+        }
         writer->add(plain(6, 4, 0));
         CHECK_THROWS_AS(writer->add(plain(4, 6, 0)), std::invalid_argument);
         CHECK_THROWS_AS(writer->finish(), std::logic_error);

@@ -33,8 +33,8 @@ std::set<std::string> matches(const std::string& text, const std::string& patter
 /// files have it too: "scene.xml".
 std::set<std::string> codesInSources() {
     std::set<std::string> all;
-    for (const char* folder :
-         {"core", "image", "scene", "generator", "render", "grade", "worker", "server", "cli"}) {
+    for (const char* folder : {"core", "image", "scene", "generator", "render", "interchange",
+                               "grade", "worker", "server", "cli"}) {
         const fs::path root = fs::path(farol::test::kSourceDir) / folder;
         if (!fs::is_directory(root)) continue;
         for (const auto& entry : fs::recursive_directory_iterator(root)) {
@@ -43,7 +43,7 @@ std::set<std::string> codesInSources() {
             all.merge(
                 matches(readFile(entry.path()),
                         "\"((?:xml|scene|asset|shape|mesh|image|limit|option|http|busy|worker|"
-                        "bundle|store|grade|rubric|output|service|check|requirement)"
+                        "bundle|store|grade|rubric|output|service|check|convert|requirement)"
                         "\\.[a-z]+(?:-[a-z]+)*|not-ready|internal|usage)(?:/[a-z-]+)?\""));
         }
     }

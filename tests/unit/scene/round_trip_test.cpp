@@ -4,9 +4,9 @@
 #include <locale>
 
 #include "core/number.h"
+#include "scene/write/writer.h"
 #include "tests/support/comma_locale.h"
 #include "tests/support/scene_equality.h"
-#include "tests/support/scene_writer.h"
 #include "tests/unit/scene/reading.h"
 
 using namespace farol;

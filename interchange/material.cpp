@@ -1,0 +1,34 @@
+#include "interchange/material.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace farol::interchange {
+
+float linearOf(float display) {
+    const double value = std::clamp(double{display}, 0.0, 1.0);
+    return static_cast<float>(value <= 0.04045 ? value / 12.92
+                                               : std::pow((value + 0.055) / 1.055, 2.4));
+}
+
+glm::vec3 linearOf(const glm::vec3& display) {
+    return {linearOf(display.r), linearOf(display.g), linearOf(display.b)};
+}
+
+PbrMaterial pbrOf(const PhongColors& colors) {
+    constexpr float kDielectric = 0.04F;  // F0 of an index of refraction of 1.5
+    PbrMaterial pbr;
+    pbr.emissive = linearOf(colors.base);
+    pbr.baseColor = glm::clamp(linearOf(colors.base + colors.diffuse) - pbr.emissive, 0.0F, 1.0F);
+    const float largest = std::max({colors.specular.r, colors.specular.g, colors.specular.b});
+    if (largest <= 0.0F) return pbr;
+    const float alphaSquared = 2.0F / (colors.shininess + 2.0F);
+    pbr.roughness = std::sqrt(std::sqrt(alphaSquared));
+    const glm::vec3 reflectance =
+        glm::min(4.0F * alphaSquared * linearOf(colors.specular), glm::vec3(1.0F));
+    pbr.specular = std::max({reflectance.r, reflectance.g, reflectance.b});
+    pbr.specularColor = reflectance / (kDielectric * pbr.specular);
+    return pbr;
+}
+
+}  // namespace farol::interchange

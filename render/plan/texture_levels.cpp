@@ -24,6 +24,12 @@ std::string sizeOf(int width, int height) {
     return std::to_string(width) + " x " + std::to_string(height) + " px";
 }
 
+/// The file, or a chess board as scenes write it.
+std::string nameOf(const TextureRef& ref) {
+    if (!ref.chess) return ref.path;
+    return "chess:" + std::to_string(ref.chess->columns) + 'x' + std::to_string(ref.chess->rows);
+}
+
 int faceSide(const GlFacts& gl) { return std::min(gl.maxFaceSide, kMaxFaceSide); }
 
 /// Classifies the alpha of an image and premultiplies its colours, as its use asks.
@@ -80,7 +86,8 @@ std::vector<TextureNote> sizeNotes(bool isCube, int width, int height, const GlF
 }
 
 Diagnostic findingOf(const TextureNote& note, const TextureRef& ref) {
-    const auto file = "file"_arg = uncut(ref.path);
+    const std::string name = nameOf(ref);
+    const auto file = "file"_arg = uncut(name);
     const auto width = "width"_arg = note.width;
     const auto height = "height"_arg = note.height;
     Severity severity = Severity::warning;

@@ -1,11 +1,17 @@
 // Interpolation of lighting attributes: at an outline at a covered sample, not at the pixel's
 // centre, which may lie far outside a triangle that is seen edge-on. A ray to the exact surface
-// starts anywhere in the triangle's plane, and texture coordinates stay at the centre: differences
-// between pixels choose their mipmap.
-#if defined(SURFACE) && !defined(SURFACE_PROFILE)
+// starts anywhere in the triangle's plane, and texture coordinates stay at the centre (RAY):
+// differences between pixels choose their mipmap. A depth that the shader writes is one for all of
+// the samples that it is run for: exact depths are those of each sample, as is then the shading.
+#if defined(EXACT_DEPTH)
+#define COVERED sample
+#define RAY sample
+#elif defined(SURFACE) && !defined(SURFACE_PROFILE)
 #define COVERED
+#define RAY
 #else
 #define COVERED centroid
+#define RAY
 #endif
 
 // No finite input gives NaN or infinity: docs/explanation/accuracy.md, "Guards of the shaders", has a

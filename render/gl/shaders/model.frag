@@ -66,8 +66,13 @@ void main() {
     vec3 unit = unitPosition + along * unitRay;
     vec3 normal = normalFromObject * surfaceGradient(unit);
 #ifdef EXACT_DEPTH
+    float step = along;
+#ifdef SURFACE_CAPS
+    // Nearer than the mesh and past an end the ray has met that end's plane: not in front of it.
+    if (along < 0.0 && abs(unit.y - 0.5) > 0.500001) step = 0.0;
+#endif
     // Depth is linear in 1 / distance along the view. Where the mesh is the surface, it is the mesh's to the bit.
-    gl_FragDepth = gl_FragCoord.z - clipFromView[3].z * gl_FragCoord.w * along / (1.0 + along);
+    gl_FragDepth = gl_FragCoord.z - clipFromView[3].z * gl_FragCoord.w * step / (1.0 + step);
 #endif
 #if defined(PHONG) || defined(LAYER_DEPTH) || defined(TEXGEN_EYE)
     vec3 position = positionView * (1.0 + along);

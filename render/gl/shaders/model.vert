@@ -37,8 +37,8 @@ uniform mat3 normalFromObject;
 #endif
 #ifdef SURFACE
 uniform vec3 unitFromObject;  // scale
-out vec3 unitPosition;
-out vec3 unitRay;
+RAY out vec3 unitPosition;
+RAY out vec3 unitRay;
 #if defined(SURFACE_CAPS)
 flat out float cap;
 #elif defined(SURFACE_PROFILE)
@@ -56,7 +56,7 @@ uniform vec4 planeT;
 #endif
 
 #ifdef TEXTURED
-out vec2 uv;
+RAY out vec2 uv;
 #if !defined(SURFACE) && !defined(TEXGEN_OBJECT) && !defined(TEXGEN_EYE)
 uniform vec4 uvFrom;  // scale, offset
 #endif

@@ -2,8 +2,8 @@
 // triangle to the surface, so that normals, texture coordinates and places do not depend on how
 // finely the mesh is cut. Lengths are those of generator::Surface.
 #ifdef SURFACE
-in vec3 unitPosition;  // on the triangle
-in vec3 unitRay;       // from the eye to there
+RAY in vec3 unitPosition;  // on the triangle
+RAY in vec3 unitRay;       // from the eye to there
 #ifdef SURFACE_CAPS
 flat in float cap;  // of the flat parts: their normal's y; 0: the side
 #endif
@@ -21,11 +21,12 @@ uniform mat3 normalFromObject;
 uniform float seenFrom;         // 1: from outside, -1: the insides
 uniform vec2 surfaceForm;
 
-// t where the ray enters: the first root of a t^2 + 2 b t + c, without cancellation.
+// t where the ray enters: the first root of a t^2 + 2 b t + c, without cancellation. Without a
+// root where the ray comes nearest: the mesh stands out of its surface there.
 float entry(float a, float b, float c) {
-    float root = sqrt(max(b * b - a * c, 0.0));
-    if (b < 0.0) return c / (root - b);
-    return a > 0.0 ? -(b + root) / a : 0.0;
+    float square = b * b - a * c;
+    if (square > 0.0 && b < 0.0) return c / (sqrt(square) - b);
+    return a > 0.0 ? -(b + sqrt(max(square, 0.0))) / a : 0.0;
 }
 
 #ifndef SURFACE_PROFILE

@@ -2,7 +2,7 @@
 // llvmpipe's own is one for four pixels, of differences between them, and its logarithm is up to
 // 0.04 off: 5 levels of 255 where two mipmaps differ much.
 #ifdef TEXTURED
-in vec2 uv;
+RAY in vec2 uv;
 uniform sampler2D image;
 #ifdef SUPERSAMPLED
 uniform float samplesAcross;  // of a pixel of the image, whose level of detail all its samples have

@@ -125,6 +125,49 @@ TEST_CASE("of nearly equal surfaces the outer one shows") {
     CHECK(apart.stats.exactDepth == 0);
 }
 
+TEST_CASE("the border of a shallow crossing is smoothed") {
+    render::Renderer renderer;
+    render::Job job;
+    job.xml =
+        "<world><camera><position x='3' y='4' z='7'/><lookAt x='0' y='0' z='0'/></camera>"
+        "<group><models><model command='sphere 2'><color><diffuse R='200' G='0' B='0'/></color>"
+        "</model><model command='ellipsoid 2.04 1.96 2'><color><diffuse R='0' G='0' B='200'/>"
+        "</color></model></models></group></world>";
+    job.options.width = job.options.height = 128;
+    job.options.background = "black";
+    for (const int samples : {2, 4, 8}) {
+        job.options.samples = samples;
+        image::Image image;
+        CHECK(renderer.draw(job, image).stats.exactDepth == 2);
+        int mixed = 0;
+        for (std::size_t i = 0; i < image.pixels.size(); i += 4)
+            mixed += image.pixels[i] > 20 && image.pixels[i + 2] > 20 ? 1 : 0;
+        CAPTURE(samples);
+        CHECK(mixed > 40);
+    }
+}
+
+TEST_CASE("an outline that the finest mesh leaves off is named, with its error") {
+    render::Renderer renderer;
+    const auto named = [&](double distance) {
+        const std::string z = std::to_string(100.0 + distance);
+        render::Job job;
+        job.xml = "<world><camera><position x='0' y='50' z='" + z + "'/><lookAt x='10' y='50' z='" +
+                  z +
+                  "'/><projection fov='0.1' near='0.01' far='5000'/></camera>"
+                  "<lights><light type='directional' dirx='1' diry='2' dirz='3'/></lights>" +
+                  group("", "cylinder 100 1000") + "</world>";
+        job.options.width = job.options.height = 64;
+        image::Image image;
+        std::string messages;
+        for (const Diagnostic& found : renderer.draw(job, image).diagnostics)
+            if (found.code == "scene.outline") messages += found.message;
+        return messages;
+    };
+    CHECK(named(0.01).find("px off, with 1024 divisions of a turn") != std::string::npos);
+    CHECK(named(500.0).empty());
+}
+
 TEST_CASE("a crowd of open shapes keeps within the triangles of its pixels") {
     render::Renderer renderer;
     std::string spheres;

@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <functional>
+#include <limits>
 
 #include "render/plan/passes.h"
 #include "tests/support/plan_scene.h"
@@ -433,4 +434,33 @@ TEST_CASE("without multisampling targets are larger, and the picture about the s
     const Image four = drawPasses(single, plan), usual = draw(painter, plan);
     for (std::size_t i = 0; i < usual.pixels.size(); ++i)
         REQUIRE(std::abs(usual.pixels[i] - four.pixels[i]) <= 64);
+}
+
+TEST_CASE("a planted NaN or infinity is magenta where it is asked for, and nothing else is") {
+    Painter painter(createContext(render::GlSource::automatic));
+    const scene::Shading shading =
+        GENERATE(scene::Shading::phong, scene::Shading::gouraud, scene::Shading::flat);
+    FramePlan plan = frame({light({0.6F, 0.0F, 0.8F, 0.0F})}, shading);
+    plan.style.marksNotFinite = true;
+    plan.items[0].specular = glm::vec3(0.1F);
+    const auto marked = [&] {
+        const Image image = draw(painter, plan);
+        std::size_t count = 0;
+        for (std::size_t i = 0; i < image.pixels.size(); i += 4)
+            count +=
+                image.pixels[i] == 255 && image.pixels[i + 1] == 0 && image.pixels[i + 2] == 255
+                    ? 1
+                    : 0;
+        return count;
+    };
+    CHECK(marked() == 0);
+    const float value =
+        GENERATE(std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity());
+    SECTION("of the material's light") { plan.items[0].emissive.g = value; }
+    SECTION("of its reflection") { plan.items[0].diffuse.r = value; }
+    SECTION("of its highlight") { plan.items[0].specular.b = value; }
+    SECTION("of a light") { plan.lightSets[0][0].diffuse.b = value; }
+    CHECK(marked() == static_cast<std::size_t>(kSide) * kSide);
+    plan.style.marksNotFinite = false;
+    CHECK(marked() == 0);
 }

@@ -151,7 +151,7 @@ TEST_CASE("textures over the limits are scaled down with a note, each axis for i
     CHECK(warning.message.find("1 x 6 px") != std::string::npos);
     refs[0].path.clear();
     refs[0].chess = scene::Chess{1, 9};
-    const Diagnostic ofBoard = render::warningOf(levels.notes[0], refs[0]);
+    const Diagnostic ofBoard = render::findingOf(levels.notes[0], refs[0]);
     CHECK(ofBoard.message.find("\"chess:1x9\" is 1 x 9 px") != std::string::npos);
 }
 

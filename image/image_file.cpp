@@ -89,7 +89,8 @@ Decoded readFile(std::string_view bytes, const std::string& name, const Location
 
 ImageSize imageSize(std::string_view bytes, const std::string& name, const Location& where) {
     const Decoded head = readFile(bytes, name, where, false);
-    return {head.width, head.height};
+    const bool hasChannel = head.channels == 2 || head.channels == 4;
+    return {head.width, head.height, hasChannel && recognise(bytes, name)->read != readJpeg};
 }
 
 Image decodeImage(std::string_view bytes, const std::string& name, const Location& where,

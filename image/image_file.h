@@ -12,6 +12,7 @@ namespace farol::image {
 /// The size of an image file, px.
 struct ImageSize {
     int width, height;
+    bool mayHaveAlpha = false;  ///< it has an alpha channel, which may be 255 throughout
 };
 
 /// Reads the head of an image file without decoding its pixels. Throws as decodeImage does for

@@ -282,6 +282,11 @@ std::vector<OptionSpec> makeSpecs() {
              "specular highlights as OpenGL's default, or exact"),
         word("specular", &O::specular, wordsOf(scene::kSpecularWords),
              "highlights under the texture, or on top of it"),
+        word("transparency", &O::transparency, wordsOf(scene::kTransparencyWords),
+             "of textures and materials that are not opaque; default on",
+             "on draws see-through models after the others, the farthest first; exact sorts the "
+             "surfaces in each pixel, so that models that pass through each other are right; off "
+             "draws all opaque."),
         number("scale", &O::scale, 0.1, 1, "", "of width and height, for fast frames; default 1"),
     };
 }

@@ -58,6 +58,7 @@ struct PictureOptions {
     Layer layer = Layer::color;
     std::optional<scene::Viewer> viewer;
     std::optional<scene::Specular> specular;
+    std::optional<scene::Transparency> transparency;
     Missing missing = Missing::error;
     double scale = 1.0;  ///< of width and height, 0.1..1
 };

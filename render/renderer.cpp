@@ -48,14 +48,14 @@ struct KeptPlaces {
 };
 
 UndecodedTexture openTexture(const TextureRef& ref, const scene::Assets& assets) {
-    if (ref.chess) return {0, 0, [&ref](std::string&) { return chessBoard(*ref.chess); }};
+    if (ref.chess) return {0, 0, false, [&ref](std::string&) { return chessBoard(*ref.chess); }};
     auto bytes = assets.read(ref.path);
     if (!bytes)
         throw Error(message<"asset.missing/image-file">("file"_arg = uncut(ref.path)), ref.where);
     const image::ImageSize size = image::imageSize(*bytes, ref.path, ref.where);
     // Shared, for a copy of the function is no copy of the file.
     const auto file = std::make_shared<const std::string>(std::move(*bytes));
-    return {size.width, size.height, [&ref, file](std::string& damage) {
+    return {size.width, size.height, size.mayHaveAlpha, [&ref, file](std::string& damage) {
                 return image::decodeImage(*file, ref.path, ref.where, &damage);
             }};
 }
@@ -110,7 +110,7 @@ Diagnostics checkSize(const TextureRef& ref, const scene::Assets& assets) {
     const UndecodedTexture texture = openTexture(ref, assets);
     Diagnostics warnings;
     for (const TextureNote& note : sizeNotes(ref.cube, texture.width, texture.height, GlFacts{}))
-        warnings.push_back(warningOf(note, ref));
+        warnings.push_back(findingOf(note, ref));
     return warnings;
 }
 
@@ -219,11 +219,18 @@ Picture Renderer::State::draw(const Prepared& prepared, const Placed& placed, co
     picture.times.geometryMs = watch.lapMs();
 
     gl::Painter::Timings timings;
+<<<<<<< HEAD
     Diagnostics warnings;  // about textures
     painter().draw(
         frame,
         [&](const TextureRef& ref) { return prefetch ? prefetch->open(ref) : openFile(ref); }, out,
         frame.stats.drawCalls, timings, warnings);
+=======
+    Diagnostics warnings;  // about textures and see-through layers
+    painter.draw(
+        frame, [&](const TextureRef& ref) { return openTexture(ref, *prepared.assets); }, out,
+        timings, warnings);
+>>>>>>> 564ede3 (render: see-through textures and materials)
     takeFindings(picture.diagnostics, warnings, job);
     if (isBlank(frame, out))
         takeFindings(

@@ -35,6 +35,7 @@ struct Material {
     Color specular{};
     Color emissive{};
     float shininess = 0.0F;
+    float opacity = 1.0F;  ///< 0: invisible, 1: opaque
     bool operator==(const Material&) const = default;
 };
 
@@ -143,6 +144,7 @@ struct Model {
     ModelSource source;
     std::optional<Material> material;
     std::optional<Texture> texture;
+    float opacity = 1.0F;  ///< 0..1: multiplies that of its materials
     bool twoSided = false;
     bool autoLod = false;  ///< lod="auto": tessellate on demand, overriding given counts
     std::string id, name;
@@ -195,6 +197,11 @@ enum class Viewer { infinite, local };
 inline constexpr EnumWords<Viewer, Viewer::local> kViewerWords{"infinite", "local"};
 enum class Specular { single, separate };
 inline constexpr EnumWords<Specular, Specular::separate> kSpecularWords{"single", "separate"};
+/// See-through parts of textures and materials: drawn opaque; in sorted order of the models; or in
+/// the order of each pixel.
+enum class Transparency { off, on, exact };
+inline constexpr EnumWords<Transparency, Transparency::exact> kTransparencyWords{"off", "on",
+                                                                                 "exact"};
 
 struct Background {
     std::optional<glm::vec3> color;
@@ -214,6 +221,7 @@ struct RenderSettings {
     std::optional<bool> axes;
     std::optional<Viewer> viewer;
     std::optional<Specular> specular;
+    std::optional<Transparency> transparency;
     std::optional<glm::dvec2> timeRangeS;  ///< begin < end: span of an animation or turntable
     bool operator==(const RenderSettings&) const = default;
 };

@@ -11,7 +11,7 @@ from pathlib import Path
 
 sys.dont_write_bytecode = True
 
-from make import hare, image, meshes, planets, signs, skies, surfaces  # noqa: E402
+from make import hare, image, meshes, planets, see_through, signs, skies, surfaces  # noqa: E402
 
 HERE = Path(__file__).resolve().parent
 
@@ -68,6 +68,14 @@ SCENES = {
         "hazard.png": signs.hazard,
         "metal.jpg": surfaces.metal,
         "rust.jpg": surfaces.rust,
+    },
+    "see-through": {
+        "clouds.png": see_through.clouds,
+        "lattice.png": see_through.lattice,
+        "leaf.png": see_through.leaf,
+        "planks.jpg": surfaces.planks,
+        "rings.png": see_through.veil_rings,
+        "rock.jpg": planets.mars,
     },
     "skybox-nebula": {
         "asteroid.ply": meshes.asteroid,

@@ -74,6 +74,9 @@ json toJson(const render::Stats& stats) {
             {"coarsening", stats.coarsening},
             {"coplanar", stats.coplanar},
             {"exactDepth", stats.exactDepth},
+            {"cutOut", stats.cutOut},
+            {"blended", stats.blended},
+            {"peeledLayers", stats.peeledLayers},
             {"occluders", stats.occluders},
             {"overdraw", stats.overdraw},
             {"lightsSkipped", stats.lightsSkipped}};

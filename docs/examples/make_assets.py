@@ -11,6 +11,7 @@ sys.dont_write_bytecode = True
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent.parent / "scenes"))
 
+from make import see_through  # noqa: E402
 from make.image import Image, write  # noqa: E402
 
 INK = (40, 46, 58)
@@ -99,7 +100,8 @@ def sky_color(d):
 
 
 def main():
-    for name, make in (("letter", letter), ("cross", cross), ("sky", sky)):
+    makers = (("letter", letter), ("cross", cross), ("sky", sky), ("lattice", see_through.lattice))
+    for name, make in makers:
         write(HERE / f"{name}.png", make())
 
 

@@ -62,7 +62,7 @@ class MtlReader {
         else if (keyword == "illum")
             isDull_ = number(line).value_or(2.0) < 2.0;
         else if (keyword == "d" || keyword == "tr")
-            readOpacity(keyword, line);
+            readOpacity(keyword, line, part.material);
         else if (keyword == "map_kd")
             readTexture(line, part);
         else if (keyword != "ka" && keyword != "ni" && keyword != "tf" && keyword != "map_ka")
@@ -135,13 +135,13 @@ class MtlReader {
         return glm::vec3(glm::clamp(rgb, 0.0, 1.0));
     }
 
-    void readOpacity(const std::string& keyword, std::string_view line) {
+    void readOpacity(const std::string& keyword, std::string_view line, scene::Material& material) {
         if (line.rfind("-halo", 0) == 0) wordOf(line);
         const auto value = number(line);
         if (!value) return;
         const double opacity = keyword == "d" ? *value : 1.0 - *value;
         // Some exporters write "Tr 1" and mean opaque; a material that cannot be seen is none.
-        if (opacity > 0.0 && opacity < 1.0) ++leftOut_["transparent materials, drawn opaque"];
+        if (opacity > 0.0 && opacity < 1.0) material.opacity = static_cast<float>(opacity);
     }
 
     void readTexture(std::string_view line, scene::PartMaterial& part) {

@@ -14,10 +14,9 @@ namespace farol::generator::io {
 std::vector<std::string> materialLibraries(std::string_view obj);
 
 /// The materials of an .mtl file, without the files that their textures mean (Texture::path): Kd,
-/// Ks, Ke, Ns, illum, and map_Kd with -s, -o and -clamp. Ambient is a quarter of Kd, as in
-/// scene::Material's defaults; Ka is not used, since exporters write 0 or 1 for every object.
-/// Opacity (d, Tr) is read, but nothing is drawn transparent: those materials, other maps and
-/// unknown lines are one info. Does not throw.
+/// Ks, Ke, Ns, d, Tr, illum, and map_Kd with -s, -o and -clamp. Ambient is a quarter of Kd, as in
+/// scene::Material's defaults; Ka is not used, since exporters write 0 or 1 for every object. Other
+/// maps and unknown lines are one info. Does not throw.
 std::vector<scene::PartMaterial> parseMtl(std::string_view bytes, const std::string& fileName,
                                           Diagnostics& findings);
 

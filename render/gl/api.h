@@ -8,13 +8,15 @@ namespace farol::render::gl {
 
 // name, type of pointer
 #define FAROL_GL_FUNCTIONS(X)                                                        \
+    X(ActiveTexture, PFNGLACTIVETEXTUREPROC)                                         \
     X(AttachShader, PFNGLATTACHSHADERPROC)                                           \
+    X(BeginQuery, PFNGLBEGINQUERYPROC)                                               \
     X(BindBuffer, PFNGLBINDBUFFERPROC)                                               \
     X(BindBufferBase, PFNGLBINDBUFFERBASEPROC)                                       \
     X(BindFramebuffer, PFNGLBINDFRAMEBUFFERPROC)                                     \
-    X(BindRenderbuffer, PFNGLBINDRENDERBUFFERPROC)                                   \
     X(BindTexture, PFNGLBINDTEXTUREPROC)                                             \
     X(BindVertexArray, PFNGLBINDVERTEXARRAYPROC)                                     \
+    X(BlendFunc, PFNGLBLENDFUNCPROC)                                                 \
     X(BufferData, PFNGLBUFFERDATAPROC)                                               \
     X(CheckFramebufferStatus, PFNGLCHECKFRAMEBUFFERSTATUSPROC)                       \
     X(ClearBufferfv, PFNGLCLEARBUFFERFVPROC)                                         \
@@ -27,7 +29,7 @@ namespace farol::render::gl {
     X(DeleteBuffers, PFNGLDELETEBUFFERSPROC)                                         \
     X(DeleteFramebuffers, PFNGLDELETEFRAMEBUFFERSPROC)                               \
     X(DeleteProgram, PFNGLDELETEPROGRAMPROC)                                         \
-    X(DeleteRenderbuffers, PFNGLDELETERENDERBUFFERSPROC)                             \
+    X(DeleteQueries, PFNGLDELETEQUERIESPROC)                                         \
     X(DeleteShader, PFNGLDELETESHADERPROC)                                           \
     X(DeleteTextures, PFNGLDELETETEXTURESPROC)                                       \
     X(DeleteVertexArrays, PFNGLDELETEVERTEXARRAYSPROC)                               \
@@ -41,13 +43,13 @@ namespace farol::render::gl {
     X(VertexAttribDivisor, PFNGLVERTEXATTRIBDIVISORPROC)                             \
     X(Enable, PFNGLENABLEPROC)                                                       \
     X(EnableVertexAttribArray, PFNGLENABLEVERTEXATTRIBARRAYPROC)                     \
+    X(EndQuery, PFNGLENDQUERYPROC)                                                   \
     X(Finish, PFNGLFINISHPROC)                                                       \
-    X(FramebufferRenderbuffer, PFNGLFRAMEBUFFERRENDERBUFFERPROC)                     \
     X(FramebufferTexture2D, PFNGLFRAMEBUFFERTEXTURE2DPROC)                           \
     X(FrontFace, PFNGLFRONTFACEPROC)                                                 \
     X(GenBuffers, PFNGLGENBUFFERSPROC)                                               \
     X(GenFramebuffers, PFNGLGENFRAMEBUFFERSPROC)                                     \
-    X(GenRenderbuffers, PFNGLGENRENDERBUFFERSPROC)                                   \
+    X(GenQueries, PFNGLGENQUERIESPROC)                                               \
     X(GenTextures, PFNGLGENTEXTURESPROC)                                             \
     X(GenVertexArrays, PFNGLGENVERTEXARRAYSPROC)                                     \
     X(GetError, PFNGLGETERRORPROC)                                                   \
@@ -56,6 +58,7 @@ namespace farol::render::gl {
     X(GetFloatv, PFNGLGETFLOATVPROC)                                                 \
     X(GetProgramInfoLog, PFNGLGETPROGRAMINFOLOGPROC)                                 \
     X(GetProgramiv, PFNGLGETPROGRAMIVPROC)                                           \
+    X(GetQueryObjectuiv, PFNGLGETQUERYOBJECTUIVPROC)                                 \
     X(GetShaderInfoLog, PFNGLGETSHADERINFOLOGPROC)                                   \
     X(GetShaderiv, PFNGLGETSHADERIVPROC)                                             \
     X(GetString, PFNGLGETSTRINGPROC)                                                 \
@@ -68,7 +71,6 @@ namespace farol::render::gl {
     X(PolygonMode, PFNGLPOLYGONMODEPROC)                                             \
     X(PolygonOffset, PFNGLPOLYGONOFFSETPROC)                                         \
     X(ReadPixels, PFNGLREADPIXELSPROC)                                               \
-    X(RenderbufferStorageMultisample, PFNGLRENDERBUFFERSTORAGEMULTISAMPLEPROC)       \
     X(Scissor, PFNGLSCISSORPROC)                                                     \
     X(ShaderSource, PFNGLSHADERSOURCEPROC)                                           \
     X(TexImage2D, PFNGLTEXIMAGE2DPROC)                                               \
@@ -80,6 +82,7 @@ namespace farol::render::gl {
     X(Uniform1f, PFNGLUNIFORM1FPROC)                                                 \
     X(Uniform1i, PFNGLUNIFORM1IPROC)                                                 \
     X(Uniform2f, PFNGLUNIFORM2FPROC)                                                 \
+    X(Uniform2fv, PFNGLUNIFORM2FVPROC)                                               \
     X(Uniform3fv, PFNGLUNIFORM3FVPROC)                                               \
     X(Uniform4fv, PFNGLUNIFORM4FVPROC)                                               \
     X(UniformMatrix3fv, PFNGLUNIFORMMATRIX3FVPROC)                                   \

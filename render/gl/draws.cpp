@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <array>
 #include <glm/gtc/type_ptr.hpp>
 
 #include "render/gl/painter_state.h"
@@ -42,6 +44,8 @@ ProgramKey keyOf(const FramePlan& plan, const Pass& pass, const Batch& batch) {
     key.features = pass.features | (batch.features & pass.itemFeatures);
     if (batch.instanced) key.features.add(Feature::instanced);
     if (!key.features.has(Feature::textured)) key.features.remove(Feature::supersampled);
+    if (!key.features.hasAny({Feature::alphaTest, Feature::peeled}))
+        key.features.remove(Feature::eachSample);
     if (key.features.has(Feature::surface))
         key.surfaceKind = plan.items[plan.batches.order[batch.first]].surface->kind->glsl;
     const auto set = static_cast<std::size_t>(first.lightSet);
@@ -75,6 +79,23 @@ void Painter::State::setScale(const Pass& pass, const LinkedProgram& program) {
         api.Uniform1f(program.samplesAcross, static_cast<float>(pass.target.scale));
 }
 
+/// Places of the GL's samples, where the program tests them.
+void Painter::State::setSamples(const Pass& pass, const LinkedProgram& program) {
+    if (program.sampleCount < 0) return;
+    constexpr std::size_t kMaxSamples = 16;  // of samplePlaces in the shader
+    std::array<glm::vec2, kMaxSamples> places{};
+    const auto pattern = std::find_if(
+        facts.samplePatterns.begin(), facts.samplePatterns.end(), [&](const SamplePattern& one) {
+            return one.size() == static_cast<std::size_t>(pass.target.samples);
+        });
+    if (pattern == facts.samplePatterns.end()) return;
+    const std::size_t count = std::min(pattern->size(), kMaxSamples);
+    for (std::size_t i = 0; i < count; ++i) places[i] = glm::vec2((*pattern)[i] - 0.5);
+    api.Uniform1i(program.sampleCount, static_cast<GLint>(count));
+    api.Uniform2fv(program.samplePlaces, static_cast<GLsizei>(count),
+                   glm::value_ptr(places.front()));
+}
+
 void Painter::State::setMaterial(const FramePlan& plan, const DrawItem& item,
                                  const LinkedProgram& program) {
     const glm::vec3 base = item.emissive + item.ambient * plan.globalAmbient;
@@ -83,6 +104,7 @@ void Painter::State::setMaterial(const FramePlan& plan, const DrawItem& item,
     api.Uniform3fv(program.materialAmbient, 1, glm::value_ptr(item.ambient));
     api.Uniform3fv(program.materialSpecular, 1, glm::value_ptr(item.specular));
     api.Uniform1f(program.materialShininess, item.shininess);
+    if (program.opacity >= 0) api.Uniform1f(program.opacity, item.opacity);
     if (program.uvFrom >= 0) api.Uniform4fv(program.uvFrom, 1, glm::value_ptr(item.uvFrom));
     if (program.mappedFrom >= 0) {
         const glm::vec3 origin(item.mesh->mesh.origin());
@@ -134,6 +156,7 @@ void Painter::State::drawModels(const FramePlan& plan, const Pass& pass, const P
             if (program.nearest >= 0)
                 api.Uniform1f(program.nearest, static_cast<float>(plan.view.near));
             setScale(pass, program);
+            setSamples(pass, program);
         }
         if (key.features.has(Feature::surface)) setSurface(api, first, program);
         api.Uniform3fv(program.plainColor, 1, glm::value_ptr(batch.plainColor));
@@ -163,6 +186,58 @@ void Painter::State::drawModels(const FramePlan& plan, const Pass& pass, const P
     setDepthRank(0, false);
     api.FrontFace(GL_CCW);
     api.PolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+}
+
+/// See-through models over what is drawn, in the order of their batches.
+void Painter::State::drawBlended(const FramePlan& plan, const Pass& pass, const PassItem& models,
+                                 int& drawCalls) {
+    api.Enable(GL_BLEND);
+    api.BlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);  // colours are premultiplied
+    api.DepthMask(GL_FALSE);
+    drawModels(plan, pass, models, drawCalls);
+    api.DepthMask(GL_TRUE);
+    api.Disable(GL_BLEND);
+}
+
+/// See-through models over what is drawn, layer by layer.
+void Painter::State::drawPeeled(const FramePlan& plan, const Pass& pass, const PassItem& models,
+                                int& drawCalls) {
+    if (!peeler) peeler.emplace(api, target->format(), facts.packInvert);
+    const glm::ivec4 viewport = viewportOf(plan, pass);
+    peeler->begin(viewport);
+    int layers = 0;
+    for (bool any = true; any; ++layers) {
+        peeler->beginLayer(layers, *target, viewport);
+        drawModels(plan, pass, models, drawCalls);
+        any = peeler->endLayer();
+        if (!any) break;
+        if (layers == kMaxPeeledLayers) {
+            leftLayersOut = true;
+            break;
+        }
+        // Under the layers before.
+        peeler->sum().bind(viewport);
+        api.BlendFunc(GL_ONE_MINUS_DST_ALPHA, GL_ONE);
+        drawLayer(peeler->layer(layers));
+    }
+    peeledLayers = std::max(peeledLayers, layers);
+    target->bind(viewport);
+    api.BlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    drawLayer(peeler->sum());
+}
+
+/// Blends a target of the same format over the bound one.
+void Painter::State::drawLayer(const Target& layer) {
+    FeatureSet features{Feature::layer};
+    if (layer.format().samples > 1) features.add(Feature::eachSample);
+    api.UseProgram(programs.get({Shaders::window, features, 0}).program.name());
+    api.BindTexture(layer.textureKind(), layer.color());
+    api.BindVertexArray(emptyArray.name());
+    api.Disable(GL_DEPTH_TEST);
+    api.Enable(GL_BLEND);
+    api.DrawArrays(GL_TRIANGLES, 0, 3);
+    api.Disable(GL_BLEND);
+    api.Enable(GL_DEPTH_TEST);
 }
 
 void Painter::State::drawLines(const FramePlan& plan, const Pass& pass, const PassItem& lines,

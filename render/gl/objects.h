@@ -55,7 +55,7 @@ FAROL_GL_OBJECT(Buffer, GenBuffers, DeleteBuffers)
 FAROL_GL_OBJECT(Texture, GenTextures, DeleteTextures)
 FAROL_GL_OBJECT(VertexArray, GenVertexArrays, DeleteVertexArrays)
 FAROL_GL_OBJECT(Framebuffer, GenFramebuffers, DeleteFramebuffers)
-FAROL_GL_OBJECT(Renderbuffer, GenRenderbuffers, DeleteRenderbuffers)
+FAROL_GL_OBJECT(Query, GenQueries, DeleteQueries)
 #undef FAROL_GL_OBJECT
 
 struct ProgramTraits {

@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <chrono>
 #include <glm/gtc/type_ptr.hpp>
+#include <map>
 #include <set>
 
 #include "render/gl/painter_state.h"
+#include "render/plan/messages.h"
+#include "render/plan/passes.h"
 
 namespace farol::render::gl {
 namespace {
@@ -48,6 +51,8 @@ Painter::State::State(std::unique_ptr<Context> with) : context(madeCurrent(std::
 void Painter::State::restoreState() {
     clearErrors(api);
     api.Disable(GL_SCISSOR_TEST);
+    api.Disable(GL_BLEND);
+    api.ActiveTexture(GL_TEXTURE0 + kPictureUnit);
     api.Enable(GL_DEPTH_TEST);
     api.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     api.DepthMask(GL_TRUE);
@@ -66,11 +71,13 @@ const GlFacts& Painter::facts() const { return state_->facts; }
 void Painter::State::prepareTextures(const FramePlan& plan, const OpenTexture& open) {
     textureNames.assign(plan.textures.size(), 0);
     textureNotes.assign(plan.textures.size(), {});
+    textureAlphas.assign(plan.textures.size(), image::Alpha::opaque);
     std::vector<const TextureRef*> missing;
     for (std::size_t i = 0; i < plan.textures.size(); ++i) {
         if (const TextureStore::Entry* known = textures.find(plan.textures[i])) {
             textureNames[i] = known->texture.name();
             textureNotes[i] = known->notes;
+            textureAlphas[i] = known->alpha;
         } else {
             missing.push_back(&plan.textures[i]);
         }
@@ -92,8 +99,19 @@ void Painter::State::prepareTextures(const FramePlan& plan, const OpenTexture& o
             textures.put(ref, std::move(reserved[i]), levels, plan.textures.size());
         textureNames[i] = entry.texture.name();
         textureNotes[i] = entry.notes;
+        textureAlphas[i] = entry.alpha;
     };
-    loadTextures(missing, open, {onReserved, [&] { compileAhead(plan); }, onDecoded}, facts);
+    // Layers other than the colours need the holes of textures alone.
+    const bool isColor = plan.style.layer == Layer::color;
+    std::map<const TextureRef*, UndecodedTexture> opened;
+    if (!isColor)
+        std::erase_if(missing, [&](const TextureRef* ref) {
+            return !opened.emplace(ref, open(*ref)).first->second.mayHaveAlpha;
+        });
+    const OpenTexture openOnce = [&](const TextureRef& ref) {
+        return isColor ? open(ref) : opened.at(&ref);
+    };
+    loadTextures(missing, openOnce, {onReserved, [&] { compileAhead(plan); }, onDecoded}, facts);
 }
 
 /// Makes the GL compile its code for this frame, by draw calls whose pixels are all scissored: the
@@ -125,7 +143,7 @@ void Painter::State::compileAhead(const FramePlan& plan) {
     api.Disable(GL_SCISSOR_TEST);
 }
 
-void Painter::State::prepare(const FramePlan& plan, const OpenTexture& open) {
+void Painter::State::prepare(FramePlan& plan, const OpenTexture& open) {
     preparePlaces(plan);
     while (lightBuffers.size() < plan.lightSets.size()) lightBuffers.emplace_back(api);
     for (std::size_t i = 0; i < plan.lightSets.size(); ++i) {
@@ -136,6 +154,12 @@ void Painter::State::prepare(const FramePlan& plan, const OpenTexture& open) {
                        plan.lightSets[i].data(), GL_STREAM_DRAW);
     }
     prepareTextures(plan, open);
+    if (std::all_of(textureAlphas.begin(), textureAlphas.end(),
+                    [](image::Alpha alpha) { return alpha == image::Alpha::opaque; }))
+        return;
+    plan.textureAlphas = textureAlphas;
+    composePasses(plan, facts);
+    preparePlaces(plan);
 }
 
 /// The places of all instanced batches, one behind the other.
@@ -163,18 +187,24 @@ Target::Resolver Painter::State::resolver(int samples) {
 void Painter::State::begin(const FramePlan& plan, const Pass& pass) {
     const PassTarget& wanted = pass.target;
     const glm::ivec2 whole = plan.view.size * wanted.scale;
-    const Target::Format format{whole.x, wanted.rows * wanted.scale, wanted.samples};
+    const Target::Format format{whole.x, wanted.rows * wanted.scale, wanted.samples, false};
     if (!target || target->format() != format) {
+        peeler.reset();
         target.reset();  // the old one first: two large ones need not fit
         target.emplace(api, format, facts.packInvert);
     }
-    // The viewport is the whole image, of which the target shows a band.
-    const int below = plan.view.size.y - wanted.firstRow - wanted.rows;
-    target->bind({0, -below * wanted.scale, whole.x, whole.y});
+    target->bind(viewportOf(plan, pass));
     const GLboolean colors = pass.state.depthOnly ? GL_FALSE : GL_TRUE;
     api.ColorMask(colors, colors, colors, colors);
     api.LineWidth(static_cast<float>(wanted.scale));
     api.PointSize(static_cast<float>(wanted.scale));
+}
+
+/// The whole image, of which the target shows a band.
+glm::ivec4 Painter::State::viewportOf(const FramePlan& plan, const Pass& pass) const {
+    const int scale = pass.target.scale;
+    const int below = plan.view.size.y - pass.target.firstRow - pass.target.rows;
+    return {0, -below * scale, plan.view.size.x * scale, plan.view.size.y * scale};
 }
 
 void Painter::State::drawPass(const FramePlan& plan, const Pass& pass, int& drawCalls) {
@@ -188,6 +218,12 @@ void Painter::State::drawPass(const FramePlan& plan, const Pass& pass, int& draw
         switch (item.kind) {
             case PassItem::Kind::models:
                 drawModels(plan, pass, item, drawCalls);
+                break;
+            case PassItem::Kind::blended:
+                drawBlended(plan, pass, item, drawCalls);
+                break;
+            case PassItem::Kind::peeled:
+                drawPeeled(plan, pass, item, drawCalls);
                 break;
             case PassItem::Kind::lines:
                 drawLines(plan, pass, item, drawCalls);
@@ -219,16 +255,18 @@ void Painter::State::read(const FramePlan& plan, std::size_t pass, image::Image&
     if (isLast) mean.finish(drawn.firstRow, image);
 }
 
-void Painter::draw(const FramePlan& plan, const OpenTexture& open, image::Image& image,
-                   int& drawCalls, Timings& timings, Diagnostics& warnings) {
+void Painter::draw(FramePlan& plan, const OpenTexture& open, image::Image& image, Timings& timings,
+                   Diagnostics& findings) {
     State& s = *state_;
+    s.peeledLayers = 0;
+    s.leftLayersOut = false;
     s.context->makeCurrent();
     s.restoreState();
     s.prepare(plan, open);
     throwOnError(s.api, "preparing");
     for (std::size_t i = 0; i < plan.textures.size(); ++i)
         for (const TextureNote& note : s.textureNotes[i])
-            warnings.push_back(warningOf(note, plan.textures[i]));
+            findings.push_back(findingOf(note, plan.textures[i]));
     const auto start = std::chrono::steady_clock::now();
     bool transparent = false;
     image.width = plan.view.size.x;
@@ -237,7 +275,7 @@ void Painter::draw(const FramePlan& plan, const OpenTexture& open, image::Image&
                         static_cast<std::size_t>(image.height) * 4);
     for (std::size_t i = 0; i < plan.passes.size(); ++i) {
         const Pass& pass = plan.passes[i];
-        s.drawPass(plan, pass, drawCalls);
+        s.drawPass(plan, pass, plan.stats.drawCalls);
         transparent |= pass.target.clearColor && pass.target.clearColor->a < 1.0F;
         if (pass.target.output == PassOutput::none) continue;
         s.api.Finish();  // else the time of drawing would be counted as reading
@@ -247,6 +285,10 @@ void Painter::draw(const FramePlan& plan, const OpenTexture& open, image::Image&
     }
     throwOnError(s.api, "drawing");
     if (transparent) unpremultiply(image);
+    plan.stats.peeledLayers = s.peeledLayers;
+    if (s.leftLayersOut)
+        findings.push_back(diagnosticOf(Severity::warning,
+                                        message<"limit.layers">("max"_arg = kMaxPeeledLayers), {}));
     timings.drawMs += sinceMs(start) - timings.readbackMs;
 }
 

@@ -21,11 +21,12 @@ class Painter {
         double drawMs = 0, readbackMs = 0;
     };
     /// The picture of a plan, straight alpha, into `image`, whose memory is used again where it is
-    /// as large; counts draw calls into `drawCalls`. `open` is
-    /// called for textures that are not in GL memory yet. Adds warnings about textures' files.
-    /// GL errors and state that an earlier plan left have no effect on this one.
-    void draw(const FramePlan& plan, const OpenTexture& open, image::Image& image, int& drawCalls,
-              Timings& timings, Diagnostics& warnings);
+    /// as large. `open` is called for textures that are not in GL memory yet. Their alphas become
+    /// known here: the passes are composed anew where some are not opaque. Counts draw calls and
+    /// layers in the plan's statistics; adds findings about textures' files and layers. GL errors
+    /// and state that an earlier plan left have no effect on this one.
+    void draw(FramePlan& plan, const OpenTexture& open, image::Image& image, Timings& timings,
+              Diagnostics& findings);
 
     const GlFacts& facts() const;
 

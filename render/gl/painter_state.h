@@ -7,6 +7,7 @@
 #include "render/gl/box_mean.h"
 #include "render/gl/mesh_store.h"
 #include "render/gl/painter.h"
+#include "render/gl/peeler.h"
 #include "render/gl/program.h"
 #include "render/gl/target.h"
 #include "render/gl/texture_store.h"
@@ -30,12 +31,16 @@ struct Painter::State {
     MeshStore meshes{api, placeBuffer, kMeshBytes};
     TextureStore textures{api, facts, kTextureBytes};
     std::optional<Target> target;
+    std::optional<Peeler> peeler;
+    int peeledLayers = 0;  ///< of the frame, in the pass with most
+    bool leftLayersOut = false;
     BoxMean mean;
     VertexArray lineArray{api}, emptyArray{api};
     Buffer lineBuffer{api};
     std::vector<Buffer> lightBuffers;
     std::vector<GLuint> textureNames;
     std::vector<std::vector<TextureNote>> textureNotes;  ///< of each texture of the plan
+    std::vector<image::Alpha> textureAlphas;             ///< likewise
 
     explicit State(std::unique_ptr<Context> with);
 
@@ -45,13 +50,19 @@ struct Painter::State {
 
     void prepareTextures(const FramePlan& plan, const OpenTexture& open);
     void compileAhead(const FramePlan& plan);
-    void prepare(const FramePlan& plan, const OpenTexture& open);
+    void prepare(FramePlan& plan, const OpenTexture& open);
     void preparePlaces(const FramePlan& plan);
     void begin(const FramePlan& plan, const Pass& pass);
     void read(const FramePlan& plan, std::size_t pass, image::Image& image);
     void drawPass(const FramePlan& plan, const Pass& pass, int& drawCalls);
     void drawModels(const FramePlan& plan, const Pass& pass, const PassItem& models,
                     int& drawCalls);
+    void drawBlended(const FramePlan& plan, const Pass& pass, const PassItem& models,
+                     int& drawCalls);
+    void drawPeeled(const FramePlan& plan, const Pass& pass, const PassItem& models,
+                    int& drawCalls);
+    void drawLayer(const Target& layer);
+    glm::ivec4 viewportOf(const FramePlan& plan, const Pass& pass) const;
     void drawLines(const FramePlan& plan, const Pass& pass, const PassItem& lines, int& drawCalls);
     void drawBackdrop(const FramePlan& plan, const Pass& pass, const PassItem& backdrop,
                       int& drawCalls);
@@ -59,6 +70,7 @@ struct Painter::State {
     Target::Resolver resolver(int samples);
     void setDepthRank(int rank, bool depthOnly);
     void setLights(const DrawItem& item, int count, const LinkedProgram& program);
+    void setSamples(const Pass& pass, const LinkedProgram& program);
     void setScale(const Pass& pass, const LinkedProgram& program);
     void setMaterial(const FramePlan& plan, const DrawItem& item, const LinkedProgram& program);
 };

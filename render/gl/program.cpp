@@ -46,6 +46,10 @@ constexpr std::array<FeatureName, kFeatures> kNames{{
     {Feature::texgenEye, "TEXGEN_EYE"},
     {Feature::supersampled, "SUPERSAMPLED"},
     {Feature::vertexColor, "VERTEX_COLOR"},
+    {Feature::alphaTest, "ALPHA_TEST"},
+    {Feature::eachSample, "EACH_SAMPLE"},
+    {Feature::blended, "BLENDED"},
+    {Feature::peeled, "PEELED"},
     {Feature::surface, "SURFACE"},
     {Feature::surfaceCaps, "SURFACE_CAPS"},
     {Feature::surfaceProfile, "SURFACE_PROFILE"},
@@ -58,6 +62,7 @@ constexpr std::array<FeatureName, kFeatures> kNames{{
     {Feature::eyePositions, "EYE_POSITIONS"},
     {Feature::instanced, "INSTANCED"},
     {Feature::skybox, "SKYBOX"},
+    {Feature::layer, "LAYER"},
     {Feature::resolve, "RESOLVE", true},
 }};
 constexpr bool isInOrder() {
@@ -173,6 +178,9 @@ const LinkedProgram& ProgramCache::get(const ProgramKey& key) {
     linked.nearest = at("nearest");
     linked.tangents = at("tangents");
     linked.samplesAcross = at("samplesAcross");
+    linked.opacity = at("opacity");
+    linked.sampleCount = at("sampleCount");
+    linked.samplePlaces = at("samplePlaces");
     return programs_.emplace(key, std::move(linked)).first->second;
 }
 

@@ -30,6 +30,7 @@ struct LinkedProgram {
         seenFrom;
     GLint lightCount, plainColor, planeS, planeT, uvFrom, mappedFrom, nearest, tangents,
         samplesAcross;
+    GLint opacity, sampleCount, samplePlaces;
 };
 
 /// Programs by key, compiled once. Throws std::runtime_error with the compiler's log: a shader
@@ -44,7 +45,11 @@ class ProgramCache {
     std::map<ProgramKey, LinkedProgram> programs_;
 };
 
-/// Binding of the Lights uniform block, and of the one texture unit.
+/// Binding of the Lights uniform block.
 inline constexpr GLuint kLightsBinding = 0;
+
+/// Texture units: pictures, and in peeled layers the depths of opaque surfaces and of the layer
+/// before.
+inline constexpr GLenum kPictureUnit = 0, kOpaqueDepthUnit = 1, kLayerDepthUnit = 2;
 
 }  // namespace farol::render::gl

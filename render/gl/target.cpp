@@ -8,16 +8,19 @@ namespace {
 
 constexpr GLenum kPackInvert = 0x8758;  // GL_MESA_pack_invert
 
-Renderbuffer storage(const Api& api, GLenum kind, int width, int height, int samples) {
-    Renderbuffer buffer(api);
-    api.BindRenderbuffer(GL_RENDERBUFFER, buffer.name());
-    api.RenderbufferStorageMultisample(GL_RENDERBUFFER, samples > 1 ? samples : 0, kind, width,
-                                       height);
-    return buffer;
-}
-
-void attach(const Api& api, GLenum point, const Renderbuffer& buffer) {
-    api.FramebufferRenderbuffer(GL_FRAMEBUFFER, point, GL_RENDERBUFFER, buffer.name());
+/// Texels that are fetched one by one, of one level.
+Texture storage(const Api& api, GLenum format, int width, int height, int samples) {
+    Texture texture(api);
+    const GLenum kind = samples > 1 ? GL_TEXTURE_2D_MULTISAMPLE : GL_TEXTURE_2D;
+    api.BindTexture(kind, texture.name());
+    if (samples > 1) {
+        api.TexImage2DMultisample(kind, samples, format, width, height, GL_TRUE);
+        return texture;
+    }
+    api.TexStorage2D(kind, 1, format, width, height);
+    api.TexParameteri(kind, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    api.TexParameteri(kind, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    return texture;
 }
 
 void check(const Api& api) {
@@ -30,24 +33,26 @@ void check(const Api& api) {
 
 Target::Target(const Api& api, const Format& format, bool packInvert)
     : api_(api), format_(format), packInvert_(packInvert), drawn_(api) {
-    const auto [width, height, samples] = format;
-    color_ = storage(api, GL_RGBA8, width, height, 1);
-    depth_ = storage(api, GL_DEPTH_COMPONENT32F, width, height, samples);
+    const auto [width, height, samples, accumulates] = format;
+    color_ = storage(api, accumulates ? GL_RGBA16F : GL_RGBA8, width, height, samples);
+    if (!accumulates) depth_ = storage(api, GL_DEPTH_COMPONENT32F, width, height, samples);
+    const auto attach = [&](GLenum point, const Texture& texture, GLenum kind) {
+        api.FramebufferTexture2D(GL_FRAMEBUFFER, point, kind, texture.name(), 0);
+    };
     api.BindFramebuffer(GL_FRAMEBUFFER, drawn_.name());
-    attach(api, GL_DEPTH_ATTACHMENT, depth_);
-    if (samples > 1) {
-        samplesOf_ = Texture(api);
-        api.BindTexture(GL_TEXTURE_2D_MULTISAMPLE, samplesOf_.name());
-        api.TexImage2DMultisample(GL_TEXTURE_2D_MULTISAMPLE, samples, GL_RGBA8, width, height,
-                                  GL_TRUE);
-        api.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D_MULTISAMPLE,
-                                 samplesOf_.name(), 0);
-        check(api);
-        resolved_ = Framebuffer(api);
-        api.BindFramebuffer(GL_FRAMEBUFFER, resolved_.name());
-    }
-    attach(api, GL_COLOR_ATTACHMENT0, color_);
+    attach(GL_COLOR_ATTACHMENT0, color_, textureKind());
+    if (depth_) attach(GL_DEPTH_ATTACHMENT, depth_, textureKind());
     check(api);
+    if (samples <= 1 || accumulates) return;
+    resolvedColor_ = storage(api, GL_RGBA8, width, height, 1);
+    resolved_ = Framebuffer(api);
+    api.BindFramebuffer(GL_FRAMEBUFFER, resolved_.name());
+    attach(GL_COLOR_ATTACHMENT0, resolvedColor_, GL_TEXTURE_2D);
+    check(api);
+}
+
+GLenum Target::textureKind() const {
+    return format_.samples > 1 ? GL_TEXTURE_2D_MULTISAMPLE : GL_TEXTURE_2D;
 }
 
 void Target::bind(const glm::ivec4& viewport) const {
@@ -60,7 +65,7 @@ void Target::resolve(const Resolver& resolver) const {
     api_.BindFramebuffer(GL_FRAMEBUFFER, resolved_.name());
     api_.UseProgram(resolver.program);
     api_.BindVertexArray(resolver.emptyArray);
-    api_.BindTexture(GL_TEXTURE_2D_MULTISAMPLE, samplesOf_.name());
+    api_.BindTexture(GL_TEXTURE_2D_MULTISAMPLE, color_.name());
     api_.DrawArrays(GL_TRIANGLES, 0, 3);
 }
 

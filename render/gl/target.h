@@ -7,13 +7,14 @@
 
 namespace farol::render::gl {
 
-/// The framebuffer of a pass: RGBA and 32-bit float depth, with samples, and where there are
+/// The framebuffer of a pass: colour and 32-bit float depth, with samples, and where there are
 /// samples the picture they are resolved into. (OSMesa's own depth buffer has 24 bits at most.)
 class Target {
   public:
     struct Format {
         int width = 0, height = 0;
         int samples = 1;
+        bool accumulates = false;  ///< half-float colours and no depth
         bool operator==(const Format&) const = default;
     };
 
@@ -26,6 +27,11 @@ class Target {
     struct Resolver {
         GLuint program = 0, emptyArray = 0;
     };
+
+    /// GL_TEXTURE_2D, or GL_TEXTURE_2D_MULTISAMPLE.
+    GLenum textureKind() const;
+    GLuint color() const { return color_.name(); }
+    GLuint depth() const { return depth_.name(); }
 
     /// Binds it, with a viewport (x, y, width, height) in its pixels, which may reach beyond it.
     void bind(const glm::ivec4& viewport) const;
@@ -40,8 +46,8 @@ class Target {
     Format format_;
     bool packInvert_;
     Framebuffer drawn_, resolved_;
-    Texture samplesOf_;  ///< the colour, where there are samples
-    Renderbuffer color_, depth_;
+    Texture color_, depth_;  ///< with the format's samples
+    Texture resolvedColor_;  ///< where there are samples
 };
 
 }  // namespace farol::render::gl

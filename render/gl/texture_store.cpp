@@ -11,7 +11,8 @@ constexpr float kWantedAnisotropy = 16.0F;
 
 std::string keyOf(const TextureRef& ref) {
     return (ref.cube ? "cube" : std::to_string(static_cast<int>(ref.filter))) +
-           (ref.clamp ? "clamp\n" : "\n") + ref.key;
+           (ref.clamp ? "clamp" : "") + std::to_string(static_cast<int>(ref.alpha)) + '\n' +
+           ref.key;
 }
 
 }  // namespace
@@ -61,8 +62,9 @@ const TextureStore::Entry& TextureStore::put(const TextureRef& ref, Reserved res
                                GL_UNSIGNED_BYTE, image.pixels.data());
     }
     throwOnError(api_, "uploading a texture");  // before it is kept for other jobs
-    return textures_.put(keyOf(ref), {std::move(reserved.texture), std::move(levels.notes)}, bytes,
-                         keep);
+    return textures_.put(keyOf(ref),
+                         {std::move(reserved.texture), std::move(levels.notes), levels.alpha},
+                         bytes, keep);
 }
 
 void TextureStore::uploadFaces(const Texture& texture, const TextureLevels& faces) {

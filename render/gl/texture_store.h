@@ -19,6 +19,7 @@ class TextureStore {
     struct Entry {
         Texture texture;
         std::vector<TextureNote> notes;
+        image::Alpha alpha = image::Alpha::opaque;
     };
     /// Null where it is not here. Valid until the next put().
     const Entry* find(const TextureRef& ref);

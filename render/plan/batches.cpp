@@ -37,11 +37,12 @@ struct Extent {
 
 class Arranger {
   public:
-    Arranger(const std::vector<DrawItem>& items, const ViewTransform& view, bool merge)
-        : items_(items), view_(view), merge_(merge) {}
+    Arranger(const std::vector<DrawItem>& items, const ViewTransform& view, bool merge,
+             std::size_t blendedFrom)
+        : items_(items), view_(view), merge_(merge), blendedFrom_(blendedFrom) {}
 
     Batches run() {
-        const std::size_t count = items_.size();
+        const std::size_t count = blendedFrom_;
         batchOf_.resize(count);
         extents_.resize(count);
         const bool apart = !merge_ || count < kMinInstances;
@@ -51,8 +52,11 @@ class Arranger {
             members_[like].push_back(i);
             batchOf_[i] = like;
         }
+        const std::size_t opaque = members_.size();
+        addBlended();
         Batches all;
-        all.order.reserve(count);
+        all.firstBlended = opaque;
+        all.order.reserve(items_.size());
         for (const std::vector<std::uint32_t>& members : members_) {
             Batch batch;
             batch.first = all.order.size();
@@ -69,6 +73,15 @@ class Arranger {
     static constexpr std::size_t kBatchesBack = 24;
     static constexpr int kMaxTiles = 64;   ///< of one model; larger ones let nothing past
     static constexpr int kMaxLooks = 256;  ///< at models in the same tiles
+
+    /// Batches of blended items, whose order is kept: likes in a row are one.
+    void addBlended() {
+        for (std::size_t i = blendedFrom_; i < items_.size(); ++i) {
+            const bool joins = merge_ && i > blendedFrom_ && sameButPlace(items_[i - 1], items_[i]);
+            if (!joins) members_.emplace_back();
+            members_.back().push_back(static_cast<std::uint32_t>(i));
+        }
+    }
 
     /// The batch that the item joins, or the number of batches.
     std::size_t findLike(std::uint32_t item) {
@@ -153,6 +166,7 @@ class Arranger {
     const std::vector<DrawItem>& items_;
     const ViewTransform& view_;
     bool merge_;
+    std::size_t blendedFrom_;
     std::vector<std::vector<std::uint32_t>> members_;  ///< of the batches
     std::vector<std::size_t> batchOf_;                 ///< of the items
     std::vector<Extent> extents_;
@@ -164,13 +178,14 @@ class Arranger {
 
 bool sameMaterial(const DrawItem& a, const DrawItem& b) {
     return a.diffuse == b.diffuse && a.ambient == b.ambient && a.specular == b.specular &&
-           a.emissive == b.emissive && a.shininess == b.shininess && a.texture == b.texture &&
-           a.mapping == b.mapping && a.planeS == b.planeS && a.planeT == b.planeT &&
-           a.uvFrom == b.uvFrom && a.colored == b.colored;
+           a.emissive == b.emissive && a.shininess == b.shininess && a.opacity == b.opacity &&
+           a.texture == b.texture && a.mapping == b.mapping && a.planeS == b.planeS &&
+           a.planeT == b.planeT && a.uvFrom == b.uvFrom && a.colored == b.colored;
 }
 
-Batches batchesOf(const std::vector<DrawItem>& items, const ViewTransform& view, bool merge) {
-    return Arranger(items, view, merge).run();
+Batches batchesOf(const std::vector<DrawItem>& items, const ViewTransform& view, bool merge,
+                  std::size_t blendedFrom) {
+    return Arranger(items, view, merge, blendedFrom).run();
 }
 
 }  // namespace farol::render

@@ -132,6 +132,11 @@ DepthPass planDepthPass(const FramePlan& plan, int shadings, int passes) {
     std::size_t firstFree = 0;  ///< behind the last batch that no run may span
     const std::vector<Batch>& batches = plan.batches.batches;
     for (std::size_t b = 0; b < batches.size(); ++b) {
+        // Behind what is seen through, all shows.
+        if (plan.items[plan.batches.order[batches[b].first]].alpha != image::Alpha::opaque) {
+            firstFree = b + 1;
+            continue;
+        }
         double saved = 0.0;
         for (std::size_t i = batches[b].first; i < batches[b].first + batches[b].count; ++i)
             saved += estimate.draw(plan.items[plan.batches.order[i]]);

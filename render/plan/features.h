@@ -33,6 +33,11 @@ enum class Feature : std::uint8_t {
     texgenEye,
     supersampled,  ///< a pixel of the target is a part of one of the image
     vertexColor,   ///< the mesh's own colours modulate, as a texture does
+    // Opacity.
+    alphaTest,   ///< pixels under half opacity are left out
+    eachSample,  ///< the GL's samples are tested one by one
+    blended,     ///< premultiplied colour and opacity
+    peeled,      ///< surfaces behind the layer before and in front of opaque ones
     // Exact surface behind a mesh.
     surface,
     surfaceCaps,
@@ -48,6 +53,7 @@ enum class Feature : std::uint8_t {
     instanced,
     // Whole windows.
     skybox,
+    layer,    ///< pixels of a target of the same size
     resolve,  ///< counted: the samples of a pixel
 };
 inline constexpr int kFeatures = static_cast<int>(Feature::resolve) + 1;

@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "generator/registry.h"
+#include "image/alpha.h"
 #include "render/options.h"
 #include "render/plan/camera.h"
 #include "render/plan/eye_light.h"
@@ -36,7 +37,11 @@ struct DrawItem {
     bool mirrored = false;           ///< determinant < 0: front faces are clockwise
     glm::vec3 diffuse{0.0F}, ambient{0.0F}, specular{0.0F}, emissive{0.0F};
     float shininess = 0.0F;
-    int texture = -1;  ///< index into FramePlan::textures
+    float opacity = 1.0F;
+    image::Alpha alpha = image::Alpha::opaque;  ///< of opacity and texture; see transparency.h
+    bool isBody = false;                        ///< its inner side shows where it is see-through
+    bool isInner = false;                       ///< made by arrangeSeeThrough
+    int texture = -1;                           ///< index into FramePlan::textures
     scene::Mapping mapping = scene::Mapping::mesh;
     glm::vec4 planeS{0.0F}, planeT{0.0F};
     glm::vec4 uvFrom{1.0F, 1.0F, 0.0F, 0.0F};  ///< scale and offset of the mesh's coordinates
@@ -61,6 +66,7 @@ struct Batch {
 struct Batches {
     std::vector<std::uint32_t> order;  ///< indices into FramePlan::items, batch after batch
     std::vector<Batch> batches;
+    std::size_t firstBlended = 0;  ///< of batches: those from here on are see-through
 };
 
 /// A segment's end in eye space.
@@ -72,7 +78,9 @@ struct LineVertex {
 /// Draw calls of one kind within a pass.
 struct PassItem {
     enum class Kind {
-        models,  ///< batches
+        models,   ///< batches
+        blended,  ///< batches over what is drawn, the farthest first
+        peeled,   ///< batches over what is drawn, in the order of each pixel
         lines,
         skybox,  ///< where nothing is drawn yet: the surroundings in a cube map
         picture  ///< likewise: a texture that fills the window
@@ -123,6 +131,7 @@ struct FrameStyle {
     bool lit = true;  ///< false: materials show as their plain diffuse colour
     scene::Viewer viewer = scene::Viewer::infinite;
     scene::Specular specular = scene::Specular::single;
+    scene::Transparency transparency = scene::Transparency::on;
     bool marksNotFinite = false;  ///< pixels with NaN or infinity are magenta
     bool mergesCalls = true;      ///< of models that differ in their place alone
     bool depthFirst = true;       ///< in a pass before the shading one, where that saves time
@@ -140,6 +149,7 @@ struct FramePlan {
     std::vector<std::vector<EyeLight>> lightSets;  ///< all empty where nothing is lit
     glm::vec3 globalAmbient{1.0F};
     std::vector<TextureRef> textures;
+    std::vector<image::Alpha> textureAlphas;  ///< of textures, once they are decoded; else empty
     // Reports: nothing of it is drawn.
     FrameStyle style;
     scene::Camera camera;

@@ -9,6 +9,13 @@ inline constexpr MessageRow kRenderMessages[] = {
     {"asset.missing/image-file",
      "cannot read the image \"{file}\"; add it to the scene's files, or correct the name",
      {"wood.png"}},
+    {"image.alpha",
+     "image \"{file}\" has see-through parts, which are drawn opaque; transparency=on shows them",
+     {"leaf.png"}},
+    {"image.alpha/unset",
+     "the alpha of image \"{file}\" is 0 everywhere, so it is drawn opaque; export it without "
+     "alpha",
+     {"leaf.tga"}},
     {"image.cross",
      "the skybox \"{file}\" is {width} x {height} px; expected a cross of 4 x 3 squares, such as "
      "1024 x 768 px",
@@ -30,6 +37,10 @@ inline constexpr MessageRow kRenderMessages[] = {
      "smaller images",
      {"12", "comparing images of 4000 x 4000 px", "5"}},
     {"limit.instances/models", "the scene has more than {most} models", {"100000"}},
+    {"limit.layers",
+     "more than {max} see-through surfaces are behind each other in a pixel; the farthest are left "
+     "out",
+     {"64"}},
     {"limit.lights/placed", "the scene has more than {most} lights", {"64"}},
     {"limit.pixels/side",
      "the image is {width} x {height} px; expected at most {most} px a side",
@@ -126,6 +137,10 @@ inline constexpr MessageRow kRenderMessages[] = {
      "this light has no effect: its group contains no model; move it to the <lights> of the scene "
      "or "
      "into the group of the models"},
+    {"scene.opacity",
+     "{count} models have an opacity under 1 and are drawn opaque; transparency=on shows through "
+     "them",
+     {"2"}},
     {"scene.outline",
      "the camera is so close to the surface of this model that its outline may be {error} px off, "
      "with {most} divisions of a turn; move the camera away, or use a smaller model",

@@ -5,6 +5,7 @@
 #include "render/plan/batches.h"
 #include "render/plan/depth_pass.h"
 #include "render/plan/sampling.h"
+#include "render/plan/transparency.h"
 
 namespace farol::render {
 namespace {
@@ -40,6 +41,11 @@ FeatureSet textureFeatures(scene::Filter filter, scene::Mapping mapping) {
     return features;
 }
 
+constexpr FeatureSet kTextureFeatures{Feature::textured,          Feature::filterMipmap,
+                                      Feature::filterAnisotropic, Feature::mappingSphere,
+                                      Feature::texgenObject,      Feature::texgenEye,
+                                      Feature::alphaTest};
+
 /// Returns the lighting features that the shader of this light set and material needs.
 FeatureSet lightFeatures(const DrawItem& item, const std::vector<EyeLight>& lights,
                          const FrameStyle& style) {
@@ -62,7 +68,14 @@ FeatureSet lightFeatures(const DrawItem& item, const std::vector<EyeLight>& ligh
 
 FeatureSet itemFeatures(const FramePlan& plan, const DrawItem& item) {
     FeatureSet features;
-    if (item.texture >= 0)
+    const bool isColor = plan.style.layer == Layer::color;
+    const bool hasTexture = item.texture >= 0 && (isColor || item.alpha != image::Alpha::opaque);
+    if (item.alpha == image::Alpha::cutOut) features.add(Feature::alphaTest);
+    if (item.alpha == image::Alpha::blended) {
+        features.add(Feature::blended);
+        if (plan.style.transparency == scene::Transparency::exact) features.add(Feature::peeled);
+    }
+    if (hasTexture)
         features =
             features | textureFeatures(plan.textures[static_cast<std::size_t>(item.texture)].filter,
                                        item.mapping);
@@ -73,8 +86,8 @@ FeatureSet itemFeatures(const FramePlan& plan, const DrawItem& item) {
             features | lightFeatures(item, plan.lightSets[static_cast<std::size_t>(item.lightSet)],
                                      plan.style);
     // Models without light and texture need their outline only, as do their ids.
-    const bool plain = plan.style.layer == Layer::id ||
-                       (plan.style.layer == Layer::color && !plan.style.lit && item.texture < 0);
+    const bool plain =
+        !hasTexture && (plan.style.layer == Layer::id || (isColor && !plan.style.lit));
     if (item.surface && (!plain || item.hasExactDepth)) features = features | surfaceFeatures(item);
     return features;
 }
@@ -101,15 +114,15 @@ void chooseFeatures(const FrameStyle& style, Pass& pass) {
             break;
         case Layer::id:
             pass.features = {Feature::lightCount, Feature::layerId};
-            pass.itemFeatures = kShapeFeatures;
+            pass.itemFeatures = kShapeFeatures | kTextureFeatures;
             break;
         case Layer::normal:
             pass.features = {Feature::lightCount, Feature::layerNormal};
-            pass.itemFeatures = kShapeFeatures;
+            pass.itemFeatures = kShapeFeatures | kTextureFeatures;
             break;
         case Layer::depth:
             pass.features = {Feature::lightCount, Feature::layerDepth};
-            pass.itemFeatures = kShapeFeatures;
+            pass.itemFeatures = kShapeFeatures | kTextureFeatures;
             break;
     }
 }
@@ -121,23 +134,32 @@ glm::vec3 colorOf(std::uint32_t id) {
     return color / 255.0F;
 }
 
-/// Lines, models, and a backdrop behind them; a skybox hides the background's picture.
+/// Lines, models, a backdrop behind them, and what is seen through; a skybox hides the background's
+/// picture.
 void addItems(const FramePlan& plan, Pass& pass) {
     if (!plan.lines.empty())
         pass.items.push_back({PassItem::Kind::lines, 0, plan.lines.size(), -1});
-    pass.items.push_back({PassItem::Kind::models, 0, plan.batches.batches.size(), -1});
+    const std::size_t opaque = plan.batches.firstBlended;
+    const std::size_t blended = plan.batches.batches.size() - opaque;
+    pass.items.push_back({PassItem::Kind::models, 0, opaque, -1});
     if (plan.style.skyboxTexture >= 0)
         pass.items.push_back({PassItem::Kind::skybox, 0, 0, plan.style.skyboxTexture});
     else if (plan.style.backgroundTexture >= 0)
         pass.items.push_back({PassItem::Kind::picture, 0, 0, plan.style.backgroundTexture});
+    if (blended == 0) return;
+    const bool isExact = plan.style.transparency == scene::Transparency::exact;
+    pass.items.push_back(
+        {isExact ? PassItem::Kind::peeled : PassItem::Kind::blended, opaque, blended, -1});
 }
 
 /// So many that a target of larger scale stays within kMaxTargetPixels, in bands of one height: a
 /// target of another size costs its pages anew.
-int rowsOfTarget(const glm::ivec2& size, const Sampling& sampling) {
+int rowsOfTarget(const glm::ivec2& size, const Sampling& sampling, bool isPeeled) {
     constexpr std::int64_t kMaxTargetPixels = 32 << 20;  // 256 MiB of colour and depth
-    if (sampling.scale == 1) return size.y;
-    const std::int64_t row = std::int64_t{size.x} * sampling.scale * sampling.scale;
+    constexpr int kOfPeeled = 4;  // with the colours and depths of its layers
+    if (sampling.scale == 1 && !isPeeled) return size.y;
+    const std::int64_t row = std::int64_t{size.x} * sampling.scale * sampling.scale *
+                             (isPeeled ? kOfPeeled * sampling.samples : 1);
     const auto most = static_cast<int>(std::clamp<std::int64_t>(kMaxTargetPixels / row, 1, size.y));
     const int bands = (size.y + most - 1) / most;
     return (size.y + bands - 1) / bands;
@@ -161,7 +183,8 @@ void composePasses(FramePlan& plan, const GlFacts& gl) {
     const FrameStyle& style = plan.style;
     const bool ids = style.layer == Layer::id;
     // Each model has another id colour: no two are alike.
-    plan.batches = batchesOf(plan.items, plan.view, style.mergesCalls && !ids);
+    const std::size_t blendedFrom = arrangeSeeThrough(plan);
+    plan.batches = batchesOf(plan.items, plan.view, style.mergesCalls && !ids, blendedFrom);
     for (Batch& batch : plan.batches.batches) {
         const DrawItem& first = plan.items[plan.batches.order[batch.first]];
         batch.features = itemFeatures(plan, first);
@@ -181,6 +204,7 @@ void composePasses(FramePlan& plan, const GlFacts& gl) {
     }
     chooseFeatures(style, pass);
     if (sampling.scale > 1) pass.features.add(Feature::supersampled);
+    if (sampling.samples > 1) pass.features.add(Feature::eachSample);
     addItems(plan, pass);
     DepthPass depths;
     // The GL's samples share their shading already; flat meshes have separate buffers.
@@ -191,7 +215,8 @@ void composePasses(FramePlan& plan, const GlFacts& gl) {
         plan.stats.occluders = depths.models;
         plan.stats.overdraw = depths.overdraw;
     }
-    pass.target.rows = rowsOfTarget(size, sampling);
+    pass.target.rows =
+        rowsOfTarget(size, sampling, pass.items.back().kind == PassItem::Kind::peeled);
     plan.passes.clear();
     for (int row = 0; row < size.y; row += pass.target.rows) {
         // The last band may draw rows of the one before again.

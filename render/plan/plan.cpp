@@ -32,6 +32,11 @@ bool anyModel(const std::vector<scene::Group>& groups, bool (*test)(const scene:
     });
 }
 
+bool isFlat(const Box& box) {
+    const glm::dvec3 size = box.max - box.min;
+    return std::min({size.x, size.y, size.z}) <= 1e-6 * std::max({size.x, size.y, size.z});
+}
+
 /// The automatic choice: without lights, colours and textures the wireframe of the first phases;
 /// without lights unlit; else lit per pixel.
 scene::Shading automaticShading(const scene::Scene& scene, const InstanceList& list) {
@@ -94,6 +99,9 @@ class Planner {
         if (style_.layer == Layer::color) addLines(plan_, scene_, list, options_);
         addBackground();
         plan_.stats.textures = static_cast<int>(plan_.textures.size());
+        if (ignoredOpacities_ > 0)
+            plan_.findings.push_back(diagnosticOf(
+                Severity::info, message<"scene.opacity">("count"_arg = ignoredOpacities_), {}));
         composePasses(plan_, gl_);
         return std::optional<FramePlan>(std::move(plan_));
     }
@@ -116,6 +124,8 @@ class Planner {
             options_.viewer.value_or(scene_.settings.viewer.value_or(scene::Viewer::infinite));
         style_.specular =
             options_.specular.value_or(scene_.settings.specular.value_or(scene::Specular::single));
+        style_.transparency = options_.transparency.value_or(
+            scene_.settings.transparency.value_or(scene::Transparency::on));
         plan_.globalAmbient = scene_.globalAmbient;
     }
 
@@ -261,6 +271,7 @@ class Planner {
         if (largest > 0.0)
             item.normalFromObject = glm::mat3(cofactor * ((det < 0.0 ? -1.0 : 1.0) / largest));
         item.mirrored = det < 0.0;
+        item.isBody = !model.twoSided && !model.source.isSheet && !isFlat(instance.mesh->bounds);
         fillMaterial(item, instance, list, undressed);
         item.indices = item.mesh->mesh.indices().size();
         item.lightSet = firstSet + instance.lightSet;
@@ -281,7 +292,8 @@ class Planner {
             for (std::size_t i = 0; i < parts.size(); ++i) {
                 item.firstIndex = parts[i].first;
                 item.indices = parts[i].count;
-                fillPart(item, list, static_cast<std::size_t>(instance.looks) + i, undressed);
+                fillPart(item, list, static_cast<std::size_t>(instance.looks) + i, undressed,
+                         model.opacity);
                 push(item, model.twoSided, whole.get(), placed);
             }
             return;
@@ -316,6 +328,7 @@ class Planner {
         item.specular = scene::colorAt(material.specular, t);
         item.emissive = scene::colorAt(material.emissive, t);
         item.shininess = material.shininess;
+        setOpacity(item, material.opacity * model.opacity);
         if (drawsLines(style_) && !model.material) item.diffuse = glm::vec3(1.0F);
         if (model.texture) return fillTexture(item, *model.texture, list, instance.texture);
         if (model.material || item.mesh->mesh.colors().empty() || drawsLines(style_)) return;
@@ -330,9 +343,16 @@ class Planner {
         return undressed.ambient.rgb / undressed.diffuse.rgb;
     }
 
-    /// The material of one part of a mesh; undressed where its file has none.
+    void setOpacity(DrawItem& item, float opacity) {
+        const bool isDrawn = style_.transparency != scene::Transparency::off && fillsFaces();
+        item.opacity = isDrawn ? opacity : 1.0F;
+        if (style_.transparency == scene::Transparency::off && opacity < 1.0F) ++ignoredOpacities_;
+    }
+
+    /// The material of one part of a mesh; undressed where its file has none. `opacity`: of the
+    /// model.
     void fillPart(DrawItem& item, const InstanceList& list, std::size_t look,
-                  const scene::Material& undressed) {
+                  const scene::Material& undressed, float opacity) {
         const PartLook& part = list.looks[look];
         const scene::Material& material =
             part.material != nullptr ? part.material->material : undressed;
@@ -341,6 +361,7 @@ class Planner {
         item.specular = material.specular.rgb;
         item.emissive = material.emissive.rgb;
         item.shininess = material.shininess;
+        setOpacity(item, material.opacity * opacity);
         item.texture = -1;
         item.uvFrom = glm::vec4(1.0F, 1.0F, 0.0F, 0.0F);
         if (drawsLines(style_)) item.diffuse = glm::vec3(1.0F);
@@ -350,7 +371,9 @@ class Planner {
     /// `texture`: index into InstanceList::textures.
     void fillTexture(DrawItem& item, const scene::Texture& from, const InstanceList& list,
                      int texture) {
-        if (drawsLines(style_) || style_.layer != Layer::color) return;
+        if (!fillsFaces()) return;
+        // Layers show the holes of a texture alone.
+        if (style_.layer != Layer::color && style_.transparency == scene::Transparency::off) return;
         // Unlit, a texture is its own picture: nothing modulates it.
         if (!style_.lit) item.diffuse = glm::vec3(1.0F);
         const generator::Mesh& mesh = item.mesh->mesh;
@@ -369,6 +392,9 @@ class Planner {
         if (known < 0) {
             TextureRef ref = list.textures[texture];
             ref.filter = options_.filter.value_or(ref.filter);
+            ref.alpha = ref.chess                                         ? AlphaUse::none
+                        : style_.transparency == scene::Transparency::off ? AlphaUse::ignored
+                                                                          : AlphaUse::kept;
             known = addTexture(std::move(ref));
         }
         return known;
@@ -378,7 +404,7 @@ class Planner {
         const auto found =
             std::find_if(plan_.textures.begin(), plan_.textures.end(), [&](const TextureRef& one) {
                 return one.key == ref.key && one.filter == ref.filter && one.cube == ref.cube &&
-                       one.clamp == ref.clamp;
+                       one.clamp == ref.clamp && one.alpha == ref.alpha;
             });
         if (found != plan_.textures.end()) return static_cast<int>(found - plan_.textures.begin());
         plan_.textures.push_back(std::move(ref));
@@ -421,6 +447,7 @@ class Planner {
     SamplePattern samples_;
     double snapPx_ = 0.0;  ///< of the image
     ReachedLights reached_{plan_.lightSets};
+    int ignoredOpacities_ = 0;        ///< of models drawn opaque
     std::int64_t openTriangles_ = 0;  ///< of open shapes in view
     double coveredPx_ = 0.0;          ///< by the models' boxes
     CoplanarFaces coplanar_;

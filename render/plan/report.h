@@ -20,6 +20,9 @@ struct Stats {
     double coarsening = 1.0;  ///< the factor of their error (render/plan/crowd.h)
     int coplanar = 0;         ///< models behind another in whose plane they have a face
     int exactDepth = 0;       ///< models so close to another that their pixels' depth is exact
+    int cutOut = 0;           ///< models with holes: their textures' alpha is on or off
+    int blended = 0;          ///< see-through models
+    int peeledLayers = 0;     ///< of their surfaces, sorted in each pixel
     int occluders = 0;        ///< models whose depths are drawn before anything is shaded
     double overdraw = 1.0;    ///< shading without that over what shows of it, estimated
     std::int64_t lightsSkipped = 0;  ///< for each model: lights that add nothing to it

@@ -26,6 +26,19 @@ std::string sizeOf(int width, int height) {
 
 int faceSide(const GlFacts& gl) { return std::min(gl.maxFaceSide, kMaxFaceSide); }
 
+/// Classifies the alpha of an image and premultiplies its colours, as its use asks.
+void takeAlpha(const TextureRef& ref, image::Image& image, TextureLevels& levels) {
+    if (ref.alpha == AlphaUse::none || image::isOpaque(image)) return;
+    const auto note = [&](TextureNote::Kind kind) {
+        levels.notes.push_back({kind, image.width, image.height});
+    };
+    const image::Alpha alpha = image::classifyAlpha(image);
+    if (alpha == image::Alpha::opaque) return note(TextureNote::Kind::alphaUnset);
+    if (ref.alpha == AlphaUse::ignored) return note(TextureNote::Kind::alphaIgnored);
+    levels.alpha = alpha;
+    image::premultiply(image);
+}
+
 TextureLevels levelsOf(const TextureRef& ref, const UndecodedTexture& texture, const GlFacts& gl) {
     TextureLevels levels;
     std::string damage;
@@ -34,6 +47,7 @@ TextureLevels levelsOf(const TextureRef& ref, const UndecodedTexture& texture, c
         levels.notes.push_back({TextureNote::Kind::damaged, image.width, image.height, damage});
     for (TextureNote& note : sizeNotes(ref.cube, image.width, image.height, gl))
         levels.notes.push_back(std::move(note));
+    takeAlpha(ref, image, levels);
     if (ref.cube) {
         for (image::Image& face : cutCross(image, faceSide(gl)))
             levels.images.push_back(std::move(face));
@@ -45,6 +59,7 @@ TextureLevels levelsOf(const TextureRef& ref, const UndecodedTexture& texture, c
         image = image::scaleDown(std::move(image), width, height);
     }
     if (mipmapped(ref.filter)) levels.images = image::buildMipmaps(image);
+    if (levels.alpha == image::Alpha::cutOut) image::preserveCoverage(image, levels.images);
     levels.images.insert(levels.images.begin(), std::move(image));
     for (image::Image& level : levels.images) flipVertically(level);
     return levels;
@@ -64,10 +79,11 @@ std::vector<TextureNote> sizeNotes(bool isCube, int width, int height, const GlF
     return notes;
 }
 
-Diagnostic warningOf(const TextureNote& note, const TextureRef& ref) {
+Diagnostic findingOf(const TextureNote& note, const TextureRef& ref) {
     const auto file = "file"_arg = uncut(ref.path);
     const auto width = "width"_arg = note.width;
     const auto height = "height"_arg = note.height;
+    Severity severity = Severity::warning;
     Message problem;
     switch (note.kind) {
         case TextureNote::Kind::scaled:
@@ -79,8 +95,16 @@ Diagnostic warningOf(const TextureNote& note, const TextureRef& ref) {
         case TextureNote::Kind::noCross:
             problem = message<"image.cross">(file, width, height);
             break;
+        case TextureNote::Kind::alphaIgnored:
+            severity = Severity::info;
+            problem = message<"image.alpha">(file);
+            break;
+        case TextureNote::Kind::alphaUnset:
+            severity = Severity::info;
+            problem = message<"image.alpha/unset">(file);
+            break;
     }
-    return diagnosticOf(Severity::warning, std::move(problem), ref.where);
+    return diagnosticOf(severity, std::move(problem), ref.where);
 }
 
 bool mipmapped(scene::Filter filter) {

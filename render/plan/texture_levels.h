@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "image/alpha.h"
 #include "image/image.h"
 #include "render/gl_facts.h"
 #include "render/plan/skybox.h"
@@ -12,18 +13,20 @@
 
 namespace farol::render {
 
-/// A problem of a texture's file without the file's name, which differs between scenes that share
-/// the texture.
+/// A finding about a texture's file without the file's name, which differs between scenes that
+/// share the texture.
 struct TextureNote {
-    enum class Kind { scaled, damaged, noCross };
+    /// alphaIgnored: AlphaUse::ignored of one that is not opaque; alphaUnset: 0 everywhere.
+    enum class Kind { scaled, damaged, noCross, alphaIgnored, alphaUnset };
     Kind kind = Kind::scaled;
     int width = 0, height = 0;  ///< of the file, px
     /// scaled: the size that is used instead, "16384 x 2 px"; damaged: as decodeImage sets it.
     std::string detail = {};
 };
 
-/// The note as a warning of the scene that samples the texture by `ref`.
-Diagnostic warningOf(const TextureNote& note, const TextureRef& ref);
+/// The note as a finding of the scene that samples the texture by `ref`: a warning, or an info of
+/// its alpha.
+Diagnostic findingOf(const TextureNote& note, const TextureRef& ref);
 
 /// The findings that a file's size alone gives: noCross, scaled.
 std::vector<TextureNote> sizeNotes(bool isCube, int width, int height, const GlFacts& gl);
@@ -33,6 +36,7 @@ std::vector<TextureNote> sizeNotes(bool isCube, int width, int height, const GlF
 struct TextureLevels {
     std::vector<image::Image> images;
     std::vector<TextureNote> notes;
+    image::Alpha alpha = image::Alpha::opaque;  ///< else the colours are premultiplied
 };
 
 /// True where the filter reads smaller levels.
@@ -42,6 +46,7 @@ bool mipmapped(scene::Filter filter);
 /// called in any thread and may throw Error image.*.
 struct UndecodedTexture {
     int width = 0, height = 0;  ///< 0: known after decode alone, and small
+    bool mayHaveAlpha = false;  ///< by its head
     /// Sets its argument as decodeImage sets `damage`.
     std::function<image::Image(std::string&)> decode;
 };

@@ -9,6 +9,10 @@
 
 namespace farol::render {
 
+/// Handling of a picture's alpha: not used; left out, with a note where it is not opaque; or kept,
+/// with premultiplied colours.
+enum class AlphaUse { none, ignored, kept };
+
 /// A picture that draws sample: an asset or a chess board. `key` names its content.
 struct TextureRef {
     std::string key, path;
@@ -16,6 +20,7 @@ struct TextureRef {
     bool cube = false;   ///< a skybox's cross
     bool clamp = false;  ///< its edge goes on beyond it
     scene::Filter filter = scene::Filter::mipmap;
+    AlphaUse alpha = AlphaUse::none;
     Location where;
 };
 

@@ -79,9 +79,11 @@ std::optional<Color> SceneBuilder::colorText(std::string_view text) const {
     return rgb ? std::optional(Color{*rgb, false}) : std::nullopt;
 }
 
-/// Reads other forms of a colour: "ff8800", "0xff8800", "#ff8800ff" without its alpha,
-/// "rgb(255, 136, 0)", and three numbers of 0 to 1. Sets `reading` to the colour's standard form.
-std::optional<Color> SceneBuilder::looseColor(std::string_view text, std::string& reading) const {
+/// Reads other forms of a colour: "ff8800", "0xff8800", "#ff8800ff", "rgb(255, 136, 0)",
+/// "rgba(255, 136, 0, 0.5)". Sets `reading` to the colour's standard form, and `opacity` where the
+/// text has one.
+std::optional<Color> SceneBuilder::looseColor(std::string_view text, std::string& reading,
+                                              float& opacity) const {
     constexpr std::size_t kDigits = 6, kWithAlpha = 8;
     std::string_view digits = text;
     for (const std::string_view prefix : {"#", "0x", "0X"})
@@ -89,28 +91,39 @@ std::optional<Color> SceneBuilder::looseColor(std::string_view text, std::string
     if (digits.size() == kDigits || digits.size() == kWithAlpha)
         if (const auto rgb = hexColor(digits.substr(0, kDigits))) {
             reading = "#" + std::string(digits.substr(0, kDigits));
+            // The two digits of the alpha as a grey.
+            const std::string_view alpha = digits.substr(kDigits);
+            if (const auto grey =
+                    hexColor(std::string(alpha) + std::string(alpha) + std::string(alpha)))
+                opacity = grey->r;
             return Color{*rgb, false};
         }
     const std::size_t open = text.find('(');
     if (open != std::string_view::npos && text.back() == ')' &&
         (sameWord(text.substr(0, open), "rgb") || sameWord(text.substr(0, open), "rgba"))) {
         const std::string_view inside = text.substr(open + 1, text.size() - open - 2);
-        // The fourth number of rgba(...) is an opacity, which nothing here has.
         const auto words = split(inside, ", \t");
         if (words.size() == 3 || words.size() == 4)
             if (const auto rgb = triple(joined(std::span(words).first(3), ","))) {
                 reading = joined(std::span(words).first(3), ",");
+                const ParsedNumber alpha = parseNumber(words.size() == 4 ? words[3] : "1");
+                if (alpha.problem.empty() && alpha.value >= 0.0) opacity = opacityOf(alpha.value);
                 return Color{*rgb, false};
             }
     }
     return std::nullopt;
 }
 
-bool SceneBuilder::namedColor(const Values& given, std::string_view attribute, Color& color) {
+/// `opacity`: null where the colour's has no meaning.
+bool SceneBuilder::namedColor(const Values& given, std::string_view attribute, Color& color,
+                              float* opacity) {
     if (given.text(attribute).empty()) return false;
     const std::string& text = given.text(attribute);
     if (const auto known = colorText(text)) {
         color = *known;
+        if (const auto named = opacities_.find(text);
+            opacity != nullptr && named != opacities_.end())
+            *opacity = named->second;
         // Three numbers of which none is over 1 are nearly black as 0 to 255.
         const float largest = std::fmax(color.rgb.r, std::fmax(color.rgb.g, color.rgb.b)) * 255.0F;
         if (text.find_first_of(", ") != std::string::npos && largest > 0.0F && largest <= 1.0F) {
@@ -121,8 +134,10 @@ bool SceneBuilder::namedColor(const Values& given, std::string_view attribute, C
         return true;
     }
     std::string reading;
-    if (const auto loose = looseColor(text, reading)) {
+    float alpha = 1.0F;
+    if (const auto loose = looseColor(text, reading, alpha)) {
         color = *loose;
+        if (opacity != nullptr) *opacity = alpha;
         findings().warn(message<"scene.value/color">("value"_arg = text, "reading"_arg = reading),
                         given.where(attribute));
         return true;
@@ -161,9 +176,12 @@ bool SceneBuilder::colorAttributes(const Values& given, std::string_view prefix,
     return true;
 }
 
-/// One element of <color>, 0..255 by the course dialect.
-void SceneBuilder::colorPart(pugi::xml_node element, const ElementSpec& spec, Color& color) {
+/// One element of <color>, 0..255 by the course dialect. `opacity`: of <diffuse>, else null.
+void SceneBuilder::colorPart(pugi::xml_node element, const ElementSpec& spec, Color& color,
+                             float* opacity) {
     const Values given = values(element, spec);
+    if (const auto alpha = given.number("A"); alpha && opacity != nullptr)
+        *opacity = opacityOf(*alpha);
     const glm::dvec3 read = given.vector("R", "G", "B", glm::dvec3(-1.0));
     double scale = given.text("max") == "1" ? 1.0 : 255.0;
     const double largest = std::fmax(read.x, std::fmax(read.y, read.z));
@@ -201,16 +219,18 @@ bool SceneBuilder::straightColor(const Values& given, Color& color) {
 void SceneBuilder::groupColor(pugi::xml_node element) {
     const ElementSpec& spec = elementSpec("color");
     const Values given = values(element, spec);
-    Color color = session_.groupColor.value_or(defaultMaterial(scene_.dialect).diffuse);
-    bool isGiven = straightColor(given, color);
+    GroupColor group =
+        session_.groupColor.value_or(GroupColor{defaultMaterial(scene_.dialect).diffuse});
+    if (const auto alpha = given.number("A")) group.opacity = opacityOf(*alpha);
+    bool isGiven = straightColor(given, group.color) || given.has("A");
     children(element, spec, [&](std::string_view canonical, pugi::xml_node child) {
         if (canonical == "diffuse") {
-            colorPart(child, elementSpec(canonical), color);
+            colorPart(child, elementSpec(canonical), group.color, &group.opacity);
             isGiven = true;
         }
     });
     if (isGiven)
-        session_.groupColor = color;
+        session_.groupColor = group;
     else
         findings().warn(
             message<"scene.missing-attribute/group-color">("element"_arg = element.name()),
@@ -224,6 +244,7 @@ void SceneBuilder::colorElement(pugi::xml_node element, Model& model) {
     if (straightColor(given, material.diffuse))
         findings().warn(message<"scene.misplaced/color">("element"_arg = element.name()),
                         at(element));
+    if (const auto alpha = given.number("A")) material.opacity = opacityOf(*alpha);
     std::set<std::string_view> seen;
     children(element, spec, [&](std::string_view canonical, pugi::xml_node child) {
         onlyOnce(canonical, child, seen);
@@ -236,7 +257,8 @@ void SceneBuilder::colorElement(pugi::xml_node element, Model& model) {
                       canonical == "diffuse"    ? material.diffuse
                       : canonical == "ambient"  ? material.ambient
                       : canonical == "specular" ? material.specular
-                                                : material.emissive);
+                                                : material.emissive,
+                      canonical == "diffuse" ? &material.opacity : nullptr);
     });
 }
 
@@ -246,7 +268,7 @@ void SceneBuilder::modelMaterial(const Values& given, Model& model) {
     any = colorAttributes(given, "ambt", material.ambient) || any;
     any = colorAttributes(given, "spec", material.specular) || any;
     any = colorAttributes(given, "emis", material.emissive) || any;
-    any = namedColor(given, "diffuse", material.diffuse) || any;
+    any = namedColor(given, "diffuse", material.diffuse, &material.opacity) || any;
     any = namedColor(given, "ambient", material.ambient) || any;
     any = namedColor(given, "specular", material.specular) || any;
     any = namedColor(given, "emission", material.emissive) || any;
@@ -255,10 +277,13 @@ void SceneBuilder::modelMaterial(const Values& given, Model& model) {
         any = true;
     }
     if (any) model.material = material;
+    if (material.opacity == 0.0F || model.opacity == 0.0F)
+        findings().warn(message<"scene.value/opacity">(), model.where);
     session_.hasOwnColors = session_.hasOwnColors || model.material || model.texture;
     if (model.material || !session_.groupColor) return;
     model.material = material;
-    model.material->diffuse = *session_.groupColor;
+    model.material->diffuse = session_.groupColor->color;
+    model.material->opacity = session_.groupColor->opacity;
     session_.usesGroupColor = true;
 }
 

@@ -48,7 +48,7 @@ void SceneBuilder::groupElement(std::string_view canonical, pugi::xml_node eleme
         const ElementSpec& spec = elementSpec("group");
         child.name = values(element, spec).text("name");
         GroupState inner;
-        const std::optional<Color> outer = session_.groupColor;
+        const std::optional<GroupColor> outer = session_.groupColor;
         groupContent(element, spec, child, inner);
         session_.groupColor = outer;
     }

@@ -48,6 +48,7 @@ void SceneBuilder::model(pugi::xml_node element, Group& group) {
     made.revolve = given.integer("revolve");
     made.autoLod = given.text("lod") == "auto";
     made.twoSided = given.flag("twoSided");
+    made.opacity = static_cast<float>(given.number("opacity", 1.0));
     made.id = given.text("id");
     made.name = given.text("name");
     if (given.text("uv") == "atlas") made.uv = UvLayout::atlas;

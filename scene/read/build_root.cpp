@@ -252,6 +252,8 @@ void SceneBuilder::colors(pugi::xml_node element) {
         const bool bytes = std::fmax(read.x, std::fmax(read.y, read.z)) > 1.0;
         if (bytes) findings().warn(message<"scene.color-scale/bytes">(), at(child));
         const Color made{glm::vec3(read / (bytes ? 255.0 : 1.0)), false};
+        opacities_.erase(name);
+        if (const auto a = given.number("a")) opacities_[name] = opacityOf(*a);
         if (!colors_.insert_or_assign(name, made).second)
             findings().warn(message<"scene.duplicate-element/color">("name"_arg = name), at(child));
     });
@@ -293,6 +295,7 @@ void SceneBuilder::render(pugi::xml_node element) {
     if (given.has("axes")) settings.axes = given.flag("axes");
     settings.viewer = kViewerWords.find(given.text("viewer"));
     settings.specular = kSpecularWords.find(given.text("specular"));
+    settings.transparency = kTransparencyWords.find(given.text("transparency"));
     if (const std::string& text = given.text("background"); !text.empty()) {
         scene_.background.where = given.where("background");
         if (const auto color = colorText(text))

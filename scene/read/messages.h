@@ -207,6 +207,8 @@ inline constexpr MessageRow kReadMessages[] = {
     {"scene.value/flag",
      "\"{name}\" of <{element}> is \"{value}\"; expected true or false",
      {"align", "translate", "maybe"}},
+    {"scene.value/opacity",
+     "the model is invisible, its opacity is 0; expected more than 0, and 1 for an opaque one"},
     {"scene.value/rgb", "colour \"rgb\" is the turning hue and cannot be defined"},
     {"scene.value/time",
      "\"time\" of <render> is \"{value}\"; expected a range of seconds like \"0..10\"",

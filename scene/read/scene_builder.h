@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 #include <string>
@@ -14,6 +15,12 @@
 
 namespace farol::scene {
 
+/// The colour and the opacity of a <color> without a model.
+struct GroupColor {
+    Color color;
+    float opacity = 1.0F;
+};
+
 /// State that a document shares with those that it includes.
 struct ReadSession {
     const ReadOptions& options;
@@ -24,7 +31,7 @@ struct ReadSession {
     int elementsLeft = 0;
     int includesLeft = 64;
     std::uint64_t scatters = 0;
-    std::optional<Color> groupColor = {};  ///< of a <color> in the group that is read, or round it
+    std::optional<GroupColor> groupColor = {};  ///< of the group that is read, or round it
     bool usesGroupColor = false, hasOwnColors = false;
 };
 
@@ -103,11 +110,18 @@ class SceneBuilder {
     Material& materialOf(Model& model) const;
     void groupColor(pugi::xml_node element);
     bool straightColor(const Values& values, Color& color);
-    void colorPart(pugi::xml_node element, const ElementSpec& spec, Color& color);
+    /// Opacity 0..1 of an attribute: 0 to 1, or 0 to 255 where it is over 1.
+    static float opacityOf(double value) {
+        return static_cast<float>(value > 1.0 ? std::fmin(value / 255.0, 1.0) : value);
+    }
+    void colorPart(pugi::xml_node element, const ElementSpec& spec, Color& color,
+                   float* opacity = nullptr);
     bool colorAttributes(const Values& values, std::string_view prefix, Color& color);
-    bool namedColor(const Values& values, std::string_view attribute, Color& color);
+    bool namedColor(const Values& values, std::string_view attribute, Color& color,
+                    float* opacity = nullptr);
     std::optional<Color> colorText(std::string_view text) const;
-    std::optional<Color> looseColor(std::string_view text, std::string& reading) const;
+    std::optional<Color> looseColor(std::string_view text, std::string& reading,
+                                    float& opacity) const;
 
     Values values(pugi::xml_node element, const ElementSpec& spec,
                   Unknown unknown = Unknown::warning);
@@ -132,6 +146,7 @@ class SceneBuilder {
     ReadSession& session_;
     Scene scene_;
     std::map<std::string, Color> colors_;
+    std::map<std::string, float> opacities_;  ///< of those of colors_ that are not opaque
     std::set<std::string_view> rootSeen_;
     bool trackingNoted_ = false;
     int lightCount_ = 0;

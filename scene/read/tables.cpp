@@ -154,6 +154,9 @@ constexpr AttributeSpec kModel[] = {
     word("mapping", "", "mesh sphere", "mesh", "`sphere`: from the normalised position"),
     word("filter", "", kFilters, "", "see `<texture>`"),
     flag("twoSided", "", "false", "draw back faces too"),
+    number("opacity", "", "1",
+           "0 invisible to 1 opaque; multiplies the opacity of its colours and of its texture",
+           {0, 1}, true),
     text("id", "", "", "a name to find it by in `layer=id` pictures"),
     text("name", "", "", ""),
     number("diffR", "diffuseR diffX diffuseX R red", "",
@@ -202,6 +205,8 @@ constexpr AttributeSpec kColorPart[] = {
     number("R", "red", "200", "a component left out keeps its default", {0, 255}, true),
     number("G", "green", "200", "", {0, 255}, true),
     number("B", "blue", "200", "", {0, 255}, true),
+    number("A", "alpha opacity", "255",
+           "opacity, of `<diffuse>` only: 0 to 1, or 0 to 255 if over 1", {0, 255}, true),
     word("max", "", "255 1", "255", "what is full intensity; says which scale is meant"),
     flag("cycles", "", "false", "the turning hue instead"),
 };
@@ -213,13 +218,15 @@ constexpr AttributeSpec kColor[] = {
            true),
     number("G", "green", "", "", {0, 255}, true),
     number("B", "blue", "", "", {0, 255}, true),
+    number("A", "alpha opacity", "255", "opacity of the material, as `A` of `<diffuse>`", {0, 255},
+           true),
 };
 constexpr AttributeSpec kNamedColor[] = {
     text("name", "", "", "any but `rgb`"),
     number("r", "red", "0", "0 to 1", {0, 255}),
     number("g", "green", "0", "", {0, 255}),
     number("b", "blue", "0", "", {0, 255}),
-    number("a", "alpha", "1", "taken and ignored", {0, 255}),
+    number("a", "alpha opacity", "1", "opacity of models whose `diffuse` it is: 0 to 1", {0, 255}),
 };
 constexpr AttributeSpec kGenerator[] = {
     text("argv", "args arguments", "", "the words of a `generator` comment"),
@@ -253,6 +260,8 @@ constexpr AttributeSpec kRender[] = {
     flag("axes", "", "false", "axis lines, -100 to 100"),
     word("viewer", "", "infinite local", "infinite", "of the specular term"),
     word("specular", "", "single separate", "single", "`separate`: added after texturing"),
+    word("transparency", "", "off on exact", "on",
+         "of textures and materials that are not opaque; see below"),
     text("time", "", "", "range of an animation, seconds: `0..10`"),
 };
 

@@ -1,6 +1,6 @@
-"""Pictures as flat lists of (r, g, b) with 0..255 floats, row 0 on top, and two writers: PNG for
-what must be exact, baseline JPEG (4:4:4, Huffman tables fitted to the picture) for what is noisy.
-Both give the same bytes on every run."""
+"""Pictures as flat lists of (r, g, b), or (r, g, b, alpha) of a PNG, with 0..255 floats, row 0 on
+top, and two writers: PNG for what must be exact, baseline JPEG (4:4:4, Huffman tables fitted to the
+picture) for what is noisy. Both give the same bytes on every run."""
 
 import math
 import struct
@@ -62,16 +62,16 @@ def png(image):
             struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
         )
 
-    raw = image.bytes()
+    raw, samples = image.bytes(), len(image.pixels[0])
     colors = {raw[i : i + 3] for i in range(0, len(raw), 3)}
     head = b"\x89PNG\r\n\x1a\n"
-    if len(colors) <= 256:
+    if len(colors) <= 256 and samples == 3:
         palette = sorted(colors)
         index = {color: i for i, color in enumerate(palette)}
         body = bytes(index[raw[i : i + 3]] for i in range(0, len(raw), 3))
         stride, kind, extra = image.width, 3, chunk(b"PLTE", b"".join(palette))
     else:
-        body, stride, kind, extra = raw, image.width * 3, 2, b""
+        body, stride, kind, extra = raw, image.width * samples, 2 if samples == 3 else 6, b""
     lines = []
     for y in range(image.height):
         line = body[y * stride : (y + 1) * stride]
@@ -79,7 +79,9 @@ def png(image):
             lines.append(b"\0" + line)
         else:  # filter Sub
             lines.append(
-                b"\1" + line[:3] + bytes((a - b) & 255 for a, b in zip(line[3:], line[:-3]))
+                b"\1"
+                + line[:samples]
+                + bytes((a - b) & 255 for a, b in zip(line[samples:], line[:-samples]))
             )
     header = struct.pack(">IIBBBBB", image.width, image.height, 8, kind, 0, 0, 0)
     return (

@@ -71,6 +71,7 @@ Figures measure(const std::string& xml, const render::PictureOptions& options,
     taken.specular =
         options.specular.value_or(scene.settings.specular.value_or(scene::Specular::single));
     taken.filter = options.filter;
+    taken.transparency = options.transparency != scene::Transparency::off;
     const reference::Picture exact =
         reference::traceCenters(reference::makeWorld(scene, files, taken));
 

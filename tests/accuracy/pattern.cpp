@@ -36,7 +36,20 @@ std::string profile() {
 }
 
 /// Smooth waves over fine noise, no power of two: what a filter gets wrong shows.
-image::Image pattern(int width, int height) {
+std::uint8_t alphaAt(PatternAlpha alpha, double u, double v, double texel) {
+    double value = 1.0;
+    if (alpha == PatternAlpha::waves)
+        value = 0.5 + 0.4 * std::sin(6.2831853 * u) * std::cos(6.2831853 * v);
+    if (alpha == PatternAlpha::holes) {
+        // Four by four, a texel from in to out.
+        const double away =
+            std::hypot(u * 4.0 - std::floor(u * 4.0) - 0.5, v * 4.0 - std::floor(v * 4.0) - 0.5);
+        value = std::fmin(1.0, std::fmax(0.0, (away - 0.3) / (4.0 * texel) + 0.5));
+    }
+    return static_cast<std::uint8_t>(std::lround(255.0 * value));
+}
+
+image::Image pattern(int width, int height, PatternAlpha alpha) {
     image::Image image{width, height, {}};
     std::uint32_t state = 7;
     for (int y = 0; y < height; ++y)
@@ -49,18 +62,19 @@ image::Image pattern(int width, int height) {
                 image.pixels.push_back(
                     static_cast<std::uint8_t>(std::lround(127.5 + 70.0 * wave + 60.0 * noise)));
             }
-            image.pixels.push_back(255);
+            image.pixels.push_back(
+                alphaAt(alpha, (x + 0.5) / width, (y + 0.5) / height, 1.0 / height));
         }
     return image;
 }
 
 }  // namespace
 
-Supplies supplies(int width, int height) {
-    const image::Image image = pattern(width, height);
+Supplies supplies(int width, int height, PatternAlpha alpha) {
+    const image::Image image = pattern(width, height, alpha);
     reference::Pixels pixels{width, height, {}};
     for (std::size_t i = 0; i < image.pixels.size(); ++i)
-        if (i % 4 != 3) pixels.rgb.push_back(image.pixels[i]);
+        (i % 4 == 3 ? pixels.alpha : pixels.rgb).push_back(image.pixels[i]);
     Supplies all;
     all.assets = std::make_shared<scene::BundleAssets>(std::map<std::string, std::string>{
         {"it.png", image::encodePng(image)}, {"profile.ply", profile()}});

@@ -13,7 +13,10 @@ struct Supplies {
     reference::Files files;
 };
 
+/// The alpha of the picture: none; round holes with smooth edges; waves from 0.1 to 0.9.
+enum class PatternAlpha { opaque, holes, waves };
+
 /// A picture of smooth waves over fine noise: what a filter gets wrong shows. And a vase's profile.
-Supplies supplies(int width, int height);
+Supplies supplies(int width, int height, PatternAlpha alpha = PatternAlpha::opaque);
 
 }  // namespace farol::accuracy

@@ -122,29 +122,3 @@ TEST_CASE("a skybox is seen however near the far plane is") {
     CHECK(covered(near) == 64 * 64);
     CHECK(behind(100'000.0).pixels == near.pixels);
 }
-
-TEST_CASE("surfaces are opaque, so that ties are those of opaque ones: the first drawn stays") {
-    const auto two = [](int alpha) {
-        render::Job job;
-        job.xml = world(
-            R"(<model command="plane 2"><texture file="red.png"/></model>
-               <model command="plane 2"><texture file="blue.png"/></model>)");
-        const auto picture = [&](int red, int blue) {
-            image::Image image{4, 4, {}};
-            for (int i = 0; i < 16; ++i)
-                for (const int value : {red, 0, blue, alpha})
-                    image.pixels.push_back(static_cast<std::uint8_t>(value));
-            return image::encodePng(image);
-        };
-        job.assets = std::make_shared<scene::BundleAssets>(std::map<std::string, std::string>{
-            {"red.png", picture(255, 0)}, {"blue.png", picture(0, 255)}});
-        job.options.samples = 4;
-        image::Image image;
-        render::Renderer().draw(job, image);
-        return image;
-    };
-    const image::Image opaque = two(255);
-    CHECK(pixel(opaque, 32, 40).r > 50);
-    for (const int alpha : {0, 127}) CHECK(two(alpha).pixels == opaque.pixels);
-    for (std::size_t i = 2; i < opaque.pixels.size(); i += 4) CHECK_FALSE(opaque.pixels[i] > 0);
-}

@@ -90,7 +90,7 @@ void collectFiles(const std::vector<scene::Group>& groups, const scene::Assets& 
             const image::Image image = image::decodeImage(*bytes, model.texture->path);
             reference::Pixels pixels{image.width, image.height, {}};
             for (std::size_t i = 0; i < image.pixels.size(); ++i)
-                if (i % 4 != 3) pixels.rgb.push_back(image.pixels[i]);
+                (i % 4 == 3 ? pixels.alpha : pixels.rgb).push_back(image.pixels[i]);
             files.pictures[model.texture->file] = std::move(pixels);
         }
         collectFiles(group.groups, assets, files);

@@ -40,9 +40,10 @@ bool same(const Transform& a, const Transform& b) {
         [&b](const auto& t) { return same(t, std::get<std::decay_t<decltype(t)>>(b)); }, a);
 }
 bool same(const Model& a, const Model& b) {
-    return std::tie(a.file, a.command, a.revolve, a.uv, a.source, a.material, a.twoSided, a.autoLod,
-                    a.id, a.name) == std::tie(b.file, b.command, b.revolve, b.uv, b.source,
-                                              b.material, b.twoSided, b.autoLod, b.id, b.name) &&
+    return std::tie(a.file, a.command, a.revolve, a.uv, a.source, a.material, a.opacity, a.twoSided,
+                    a.autoLod, a.id, a.name) == std::tie(b.file, b.command, b.revolve, b.uv,
+                                                         b.source, b.material, b.opacity,
+                                                         b.twoSided, b.autoLod, b.id, b.name) &&
            same(a.texture, b.texture);
 }
 bool same(const Group& a, const Group& b);

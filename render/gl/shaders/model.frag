@@ -42,6 +42,22 @@ uniform vec3 plainColor;
 uniform mat4 clipFromView;
 #endif
 
+#if defined(ALPHA_TEST) || defined(BLENDED)
+uniform float opacity;
+#endif
+#ifdef PEELED
+// Reversed: the larger is the nearer.
+#ifdef EACH_SAMPLE
+layout(binding = 1) uniform sampler2DMS opaqueDepth;
+layout(binding = 2) uniform sampler2DMS layerDepth;
+#define FETCH_DEPTH(depths) texelFetch(depths, ivec2(gl_FragCoord.xy), gl_SampleID).r
+#else
+layout(binding = 1) uniform sampler2D opaqueDepth;
+layout(binding = 2) uniform sampler2D layerDepth;
+#define FETCH_DEPTH(depths) texelFetch(depths, ivec2(gl_FragCoord.xy), 0).r
+#endif
+#endif
+
 out vec4 result;
 
 void main() {
@@ -69,25 +85,54 @@ void main() {
     vec3 right = tangentChange((1.0 + along) * CHANGE_RIGHT(unitRay), reach, gradient);
     vec3 up = tangentChange((1.0 + along) * CHANGE_UP(unitRay), reach, gradient);
 #if defined(MAPPING_SPHERE)
-    vec4 texel =
-        sampleSphere(unit * surfaceLengths, right * surfaceLengths, up * surfaceLengths);
+#define TEXEL sampleSphere(unit * surfaceLengths, right * surfaceLengths, up * surfaceLengths)
 #elif defined(TEXGEN_OBJECT)
     mat3x2 plane = transpose(mat2x3(planeS.xyz * surfaceLengths, planeT.xyz * surfaceLengths));
-    vec4 texel = filtered(plane * unit + vec2(planeS.w, planeT.w), plane * right, plane * up);
+#define TEXEL filtered(plane * unit + vec2(planeS.w, planeT.w), plane * right, plane * up)
 #elif defined(TEXGEN_EYE)
     mat3x2 plane = transpose(mat2x3(planeS.xyz, planeT.xyz));
     vec3 eyeRight = tangentChange((1.0 + along) * CHANGE_RIGHT(positionView), position, normal);
     vec3 eyeUp = tangentChange((1.0 + along) * CHANGE_UP(positionView), position, normal);
-    vec4 texel =
-        filtered(plane * position + vec2(planeS.w, planeT.w), plane * eyeRight, plane * eyeUp);
+#define TEXEL \
+    filtered(plane * position + vec2(planeS.w, planeT.w), plane * eyeRight, plane * eyeUp)
 #else
-    vec4 texel = sampleSurface(unit, uv, right, up);
+#define TEXEL sampleSurface(unit, uv, right, up)
 #endif
 #elif defined(TEXTURED) && defined(MAPPING_SPHERE)
-    vec4 texel =
-        sampleSphere(positionMapped, CHANGE_RIGHT(positionMapped), CHANGE_UP(positionMapped));
+#define TEXEL \
+    sampleSphere(positionMapped, CHANGE_RIGHT(positionMapped), CHANGE_UP(positionMapped))
 #elif defined(TEXTURED)
-    vec4 texel = sampleMesh();
+#define TEXEL sampleMesh()
+#endif
+#ifdef PEELED
+#ifdef EXACT_DEPTH
+    float depth = gl_FragDepth;
+#else
+    float depth = gl_FragCoord.z;
+#endif
+    if (depth <= FETCH_DEPTH(opaqueDepth) || depth >= FETCH_DEPTH(layerDepth)) discard;
+#endif
+#if defined(ALPHA_TEST) && defined(EACH_SAMPLE)
+    // A pixel's colour is the mean of its samples that are there.
+    vec4 texel = vec4(0.0);
+    int there = 0;
+    for (int i = 0; i < sampleCount; ++i) {
+        sampleShift = samplePlaces[i];
+        vec4 one = TEXEL;
+        if (one.a < 0.5) continue;
+        there |= 1 << i;
+        texel += one;
+    }
+    if (there == 0) discard;
+    gl_SampleMask[0] = there;
+#elif defined(TEXTURED)
+    vec4 texel = TEXEL;
+#ifdef ALPHA_TEST
+    if (texel.a * opacity < 0.5) discard;
+#endif
+#endif
+#ifdef ALPHA_TEST
+    texel.rgb /= max(texel.a, 0.25);
 #endif
 #if defined(LAYER_ID)
     result = vec4(plainColor, 1.0);
@@ -119,6 +164,23 @@ void main() {
     result.rgb += extra;
 #elif !defined(UNLIT)
     result.rgb += added;
+#endif
+#endif
+#ifdef BLENDED
+    // Colours of textures are multiplied by their alpha already.
+#ifdef TEXTURED
+#ifdef SEPARATE_SPECULAR
+#ifdef PHONG
+    result.rgb += (texel.a - 1.0) * extra;
+#elif !defined(UNLIT)
+    result.rgb += (texel.a - 1.0) * added;
+#endif
+#endif
+    result.a = texel.a;
+#endif
+    result *= opacity;
+#ifdef PEELED
+    if (result.a == 0.0) discard;
 #endif
 #endif
 #endif

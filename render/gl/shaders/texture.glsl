@@ -15,8 +15,17 @@ uniform float samplesAcross;  // of a pixel of the image, whose level of detail 
 #define CHANGE_RIGHT(v) CHANGE(dFdx, v)
 #define CHANGE_UP(v) CHANGE(dFdy, v)
 
+#if defined(ALPHA_TEST) && defined(EACH_SAMPLE)
+uniform int sampleCount;
+uniform vec2 samplePlaces[16];  // from the pixel's middle, px
+vec2 sampleShift = vec2(0.0);   // place in the pixel that is looked up
+#endif
+
 // `right` and `up`: how `at` changes by a pixel of the target.
 vec4 filtered(vec2 at, vec2 right, vec2 up) {
+#if defined(ALPHA_TEST) && defined(EACH_SAMPLE)
+    at += sampleShift.x * right + sampleShift.y * up;
+#endif
 #ifdef SUPERSAMPLED
     right *= samplesAcross;
     up *= samplesAcross;
@@ -34,7 +43,10 @@ vec4 filtered(vec2 at, vec2 right, vec2 up) {
 
 // The mesh's own coordinates, with the GL's derivatives.
 vec4 sampleMesh() {
-#if !defined(SUPERSAMPLED)
+#if defined(ALPHA_TEST) && defined(EACH_SAMPLE)
+    vec2 right = dFdx(uv), up = dFdy(uv);
+    return textureGrad(image, uv + sampleShift.x * right + sampleShift.y * up, right, up);
+#elif !defined(SUPERSAMPLED)
     return texture(image, uv);
 #elif defined(FILTER_ANISOTROPIC)
     return textureGrad(image, uv, samplesAcross * dFdx(uv), samplesAcross * dFdy(uv));

@@ -10,6 +10,17 @@ void main() {
     for (int i = 0; i < RESOLVE; ++i) sum += texelFetch(drawn, ivec2(gl_FragCoord.xy), i);
     result = sum * (1.0 / RESOLVE);
 }
+#elif defined(LAYER)
+// Premultiplied.
+#ifdef EACH_SAMPLE
+uniform sampler2DMS drawn;
+
+void main() { result = texelFetch(drawn, ivec2(gl_FragCoord.xy), gl_SampleID); }
+#else
+uniform sampler2D drawn;
+
+void main() { result = texelFetch(drawn, ivec2(gl_FragCoord.xy), 0); }
+#endif
 #else
 #ifdef SUPERSAMPLED
 uniform float samplesAcross;  // of a pixel of the image, whose level of detail all its samples have

@@ -59,8 +59,9 @@ Place placeOf(const World& world, const Instance& one, const Surface& s,
     return place;
 }
 
-void color(const World& world, const Instance& one, const Ray& ray, const Hit& hit,
-           const glm::dvec3& direction, Sample& sample) {
+/// Fills in a surface alone. Returns its opacity; the colour is not multiplied by it.
+double color(const World& world, const Instance& one, const Ray& ray, const Hit& hit,
+             const glm::dvec3& direction, Sample& sample) {
     const Surface s = one.shape->surface(ray, hit);
     const glm::dmat3 normalMatrix = glm::transpose(one.objectFromView);
     const double side = glm::dot(s.normal, ray.direction) > 0.0 ? -1.0 : 1.0;  // a back, shown
@@ -70,7 +71,7 @@ void color(const World& world, const Instance& one, const Ray& ray, const Hit& h
     sample.id = one.id;
     sample.depth = hit.t;
     sample.part = hit.face * 2 + (side < 0.0 ? 1 : 0);
-    glm::dvec3 texture(1.0);
+    glm::dvec4 texture(1.0);
     if (one.texture) {
         const Place place = placeOf(world, one, s, direction, hit.t);
         texture = one.texture->sample(place.uv, place.dx, place.dy, one.filter);
@@ -79,14 +80,19 @@ void color(const World& world, const Instance& one, const Ray& ray, const Hit& h
         constexpr double kJump = 0.125;  // as round the poles, where no filter is right
         sample.coarse = glm::length(place.dx) > kJump || glm::length(place.dy) > kJump;
     }
+    double opacity = one.opacity * texture.a;
+    if (one.kind == Texture::Kind::cutOut) opacity = opacity < 0.5 ? 0.0 : 1.0;
+    if (!(opacity > 0.0)) return 0.0;
+    const glm::dvec3 texel = glm::dvec3(texture) / texture.a;
     if (one.unlit) {
-        sample.color = one.dress.diffuse * texture;
-        return;
+        sample.color = one.dress.diffuse * texel;
+        return opacity;
     }
     for (const EyeLight& light : one.lights)
         sample.part = 2 * (sample.part % (1 << 20)) + (inCone(light, sample.point) ? 1 : 0);
     sample.color = shade(world.rules, one.dress, one.lights, sample.point,
-                         glm::normalize(side * (normalMatrix * inner)), texture);
+                         glm::normalize(side * (normalMatrix * inner)), texel);
+    return opacity;
 }
 
 /// Runs `row` for all rows; each writes only what is its own.
@@ -116,10 +122,10 @@ std::uint8_t flagsOf(const Picture& picture, const std::vector<Sample>& samples,
     for (int j = std::max(0, y - 1); j <= std::min(picture.height - 1, y + 1); ++j)
         for (int i = std::max(0, x - 1); i <= std::min(picture.width - 1, x + 1); ++i) {
             const Sample& there = samples[picture.at(i, j)];
-            if (there.id != here.id)
+            if (there.ids != here.ids)
                 flags |= kSilhouette;
             else if (here.id != 0 && (i != x || j != y) &&
-                     (there.part != here.part || there.texel != here.texel || bends(here, there)))
+                     (there.parts != here.parts || there.texel != here.texel || bends(here, there)))
                 flags |= kCrease;
         }
     return static_cast<std::uint8_t>(flags);
@@ -132,37 +138,80 @@ glm::dvec3 meanOf(const World& world, int x, int y, int n) {
     return sum / static_cast<double>(n * n);
 }
 
-}  // namespace
-
-Sample trace(const World& world, double x, double y) {
-    Sample sample;
-    sample.color = world.background;
-    const glm::dvec3 direction = world.direction(x, y);
-    const Instance* seen = nullptr;
-    Ray seenRay{};
+/// A surface that a ray meets.
+struct Met {
+    const Instance* instance = nullptr;
+    Ray ray{};
     Hit hit;
+};
+
+/// The nearest surface behind `last`, or in its place and later in the document.
+Met nextBehind(const World& world, double x, double y, const Met& last) {
+    const glm::dvec3 direction = world.direction(x, y);
+    Met met;
     double far = world.far;
     for (const Instance& one : world.instances) {
         if (x < one.pixelMin.x || x > one.pixelMax.x || y < one.pixelMin.y || y > one.pixelMax.y)
             continue;
+        // Rounding must not find a surface twice.
+        double from = world.near;
+        if (last.instance != nullptr)
+            from = last.hit.t * (&one > last.instance ? 1.0 - 1e-12 : 1.0 + 1e-7);
         const Ray ray{-(one.objectFromView * one.originView), one.objectFromView * direction};
-        Nearest nearest(world.near, far, one.twoSided);
+        Nearest nearest(std::max(from, world.near), far, one.twoSided);
         one.shape->intersect(ray, nearest);
-        if (!nearest.found() || !(nearest.best().t < hit.t)) continue;
-        hit = nearest.best();
-        far = hit.t;
-        seen = &one;
-        seenRay = ray;
+        if (!nearest.found() || !(nearest.best().t < met.hit.t)) continue;
+        met = {&one, ray, nearest.best()};
+        far = met.hit.t;
     }
-    if (seen != nullptr) color(world, *seen, seenRay, hit, direction, sample);
+    return met;
+}
+
+void addTo(std::uint64_t& digest, int value) {
+    digest = (digest ^ (static_cast<std::uint64_t>(value) + 0x9e3779b97f4a7c15U)) * 0x100000001b3U;
+}
+
+}  // namespace
+
+Sample trace(const World& world, double x, double y) {
+    constexpr double kOpaque = 1e-6;  // what is seen through less adds nothing
+    Sample sample;
+    glm::dvec3 sum(0.0);
+    double left = 1.0;
+    for (Met met; left > kOpaque;) {
+        met = nextBehind(world, x, y, met);
+        if (met.instance == nullptr) break;
+        Sample surface;
+        const double opacity =
+            color(world, *met.instance, met.ray, met.hit, world.direction(x, y), surface);
+        if (!(opacity > 0.0)) continue;
+        surface.ids = sample.ids;
+        surface.parts = sample.parts;
+        surface.opaqueId = sample.opaqueId;
+        if (surface.opaqueId == 0 && opacity >= 0.5) surface.opaqueId = surface.id;
+        addTo(surface.ids, surface.id);
+        addTo(surface.parts, surface.part);
+        sum += left * opacity * surface.color;
+        left *= 1.0 - opacity;
+        if (sample.id == 0) {
+            sample = surface;
+        } else {
+            sample.ids = surface.ids;
+            sample.parts = surface.parts;
+            sample.opaqueId = surface.opaqueId;
+            sample.coarse |= surface.coarse;
+        }
+    }
+    sample.color = sum + left * world.background;
     return sample;
 }
 
 Picture traceCenters(const World& world, int threads) {
-    Picture picture{world.width, world.height, {}, {}, {}, 1, 0.0};
+    Picture picture{world.width, world.height, {}, {}, {}, {}, 1, 0.0};
     const std::size_t count = picture.at(0, world.height);
     picture.color.resize(count);
     picture.id.resize(count);
+    picture.opaqueId.resize(count);
     picture.edge.resize(count);
     std::vector<Sample> samples(count);
     eachRow(world.height, threads, [&](int y) {
@@ -171,6 +220,7 @@ Picture traceCenters(const World& world, int threads) {
             sample = trace(world, x + 0.5, y + 0.5);
             picture.color[picture.at(x, y)] = sample.color;
             picture.id[picture.at(x, y)] = sample.id;
+            picture.opaqueId[picture.at(x, y)] = sample.opaqueId;
         }
     });
     for (int y = 0; y < world.height; ++y)

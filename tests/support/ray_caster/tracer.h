@@ -11,22 +11,25 @@ namespace farol::reference {
 /// The result of one ray.
 struct Sample {
     glm::dvec3 color{0.0};
-    int id = 0;          ///< 0: the background
-    int part = 0;        ///< the face of the shape, and which cones of light it is in
-    double depth = 0.0;  ///< along the view
+    int id = 0;        ///< of the nearest surface; 0: the background
+    int opaqueId = 0;  ///< of the nearest surface that is at least half opaque; 0: none is
+    int part = 0;      ///< the face of the shape, and which cones of light it is in
+    std::uint64_t ids = 0, parts = 0;  ///< digests of all surfaces behind each other that are seen
+    double depth = 0.0;                ///< along the view, of the nearest
     glm::dvec3 point{0.0}, normal{0.0};  ///< eye space; the normal unit, of the surface
     glm::ivec2 texel{0};                 ///< the one seen, with the filter `nearest`
     bool coarse = false;  ///< texture coordinates jump here by an eighth or more a pixel
 };
 
-/// The ray through (x, y) px from the top left.
+/// The ray through (x, y) px from the top left. Surfaces with opacity under 1 are added up in the
+/// order of their depth; of equal depths the first in the document is in front.
 Sample trace(const World& world, double x, double y);
 
 /// Display values 0..1, top row first, not quantised.
 struct Picture {
     int width = 0, height = 0;
     std::vector<glm::dvec3> color;
-    std::vector<int> id;             ///< at pixel centres
+    std::vector<int> id, opaqueId;   ///< at pixel centres
     std::vector<std::uint8_t> edge;  ///< a Flags, at pixel centres
     int side = 1;                    ///< samples a side of each pixel, at most
     double change = 0.0;             ///< R2: rms change at the last doubling, 0..1

@@ -133,6 +133,16 @@ class Maker {
         one.dress = {color(material.diffuse), color(material.ambient), color(material.specular),
                      color(material.emissive), material.shininess};
         if (model.texture) dress(one, *model.texture);
+        if (options_.transparency) {
+            one.opacity = static_cast<double>(material.opacity) * double{model.opacity};
+            if (one.texture) one.kind = one.texture->kind();
+            if (one.opacity < 1.0) one.kind = Texture::Kind::blended;
+        }
+        // See-through bodies show their insides; sheets stay as they are.
+        const Bounds box = one.shape->bounds();
+        const glm::dvec3 size = box.max - box.min;
+        if (one.kind != Texture::Kind::opaque)
+            one.twoSided |= std::min({size.x, size.y, size.z}) > 1e-6;
         frame(one);
         world_.instances.push_back(std::move(one));
     }
@@ -145,7 +155,11 @@ class Maker {
         if (found == files_.pictures.end())
             throw std::invalid_argument("the texture " + texture.file + " was not given");
         std::shared_ptr<const Texture>& shared = textures_[texture.file];
-        if (!shared) shared = std::make_shared<Texture>(found->second);
+        if (!shared) {
+            Pixels pixels = found->second;
+            if (!options_.transparency) pixels.alpha.clear();
+            shared = std::make_shared<Texture>(pixels);
+        }
         one.texture = shared;
         if (one.unlit) one.dress.diffuse = glm::dvec3(1.0);  // it is its texture alone
     }

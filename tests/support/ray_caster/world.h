@@ -27,6 +27,7 @@ struct Options {
     scene::Viewer viewer = scene::Viewer::infinite;
     scene::Specular specular = scene::Specular::single;
     std::optional<scene::Filter> filter;  ///< unset: the texture's own, else mipmap
+    bool transparency = true;             ///< false: all is opaque
     glm::dvec3 background{0.0};
     int threads = 2;
 };
@@ -43,7 +44,9 @@ struct Instance {
     std::shared_ptr<const Texture> texture;  ///< null: none
     scene::Texture mapping;
     scene::Filter filter = scene::Filter::mipmap;
-    glm::dvec2 pixelMin{0.0}, pixelMax{0.0};  ///< covers its picture, px
+    double opacity = 1.0;
+    Texture::Kind kind = Texture::Kind::opaque;  ///< of its texture's alpha and its opacity
+    glm::dvec2 pixelMin{0.0}, pixelMax{0.0};     ///< covers its picture, px
 };
 
 /// A scene made ready to be seen: everything relative to the eye.

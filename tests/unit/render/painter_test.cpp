@@ -81,8 +81,7 @@ EyeLight light(const glm::vec4& position) {
 }
 
 /// Draws a plan's own passes.
-Image drawPasses(Painter& painter, const FramePlan& plan) {
-    int calls = 0;
+Image drawPasses(Painter& painter, FramePlan plan) {
     Painter::Timings timings;
     Image image;
     Diagnostics warnings;
@@ -91,7 +90,7 @@ Image drawPasses(Painter& painter, const FramePlan& plan) {
         [](const render::TextureRef&) -> render::UndecodedTexture {
             throw std::logic_error("no texture");
         },
-        image, calls, timings, warnings);
+        image, timings, warnings);
     return image;
 }
 

@@ -145,7 +145,7 @@ TEST_CASE("textures over the limits are scaled down with a note, each axis for i
     CHECK(levels.images[0].pixels.front() == 8);
     CHECK(levels.images[0].pixels.back() == 0);
     REQUIRE(levels.notes.size() == 1);
-    const Diagnostic warning = render::warningOf(levels.notes[0], refs[0]);
+    const Diagnostic warning = render::findingOf(levels.notes[0], refs[0]);
     CHECK(warning.code == "image.scaled");
     CHECK(warning.message.find("1 x 9 px") != std::string::npos);
     CHECK(warning.message.find("1 x 6 px") != std::string::npos);

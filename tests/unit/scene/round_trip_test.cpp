@@ -25,7 +25,8 @@ lines</description>
   <window width="640" height="480"/>
   <camera><position x="1.1" y="2.2" z="1e-7"/><lookAt x="0.1"/><up x="0.3" y="1"/>
     <projection fov="33.3" near="0.1" far="12345.678"/></camera>
-  <render shading="gouraud" aa="8" axes="true" viewer="local" specular="separate" time="1..7.5"/>
+  <render shading="gouraud" aa="8" axes="true" viewer="local" specular="separate"
+    transparency="exact" time="1..7.5"/>
   <background texture="b.jpg" color="12,34,56"/><skybox texture="s.jpg" width="123.4"/>
   <entity file="ship.xml"/>
   <colors><color name="warm" r="0.9" g="0.6" b="0.3"/></colors>
@@ -45,10 +46,11 @@ lines</description>
     <scatter count="9" xzMin="1" xzMax="2" yMin="-1" yMax="1"/>
     <models>
       <model file="c.3d"/>
-      <model command="revolution p.ply 32" uv="atlas" lod="auto" twoSided="true" id="i" name="n"/>
+      <model command="revolution p.ply 32" uv="atlas" lod="auto" twoSided="true" id="i" name="n"
+        opacity="0.3"/>
       <model file="p.ply" revolve="12" uv="2017">
         <texture file="t.jpg" filter="nearest"/><texgen mode="eye" s="1 2 3 4" t="0.1 0 0 1"/>
-        <color><diffuse R="17" G="99.5" B="254"/><ambient cycles="true"/>
+        <color><diffuse R="17" G="99.5" B="254" A="51"/><ambient cycles="true"/>
           <specular R="1" G="2" B="3"/><emissive R="0.1" G="0.2" B="0.3"/>
           <shininess value="77.7"/></color>
       </model>
@@ -123,6 +125,7 @@ TEST_CASE("equality sees every field") {
         [](Scene& s) { s.lights[2].space = LightSpace::world; },
         [](Scene& s) { s.globalAmbient.r = 0; },
         [](Scene& s) { s.settings.samples = 2; },
+        [](Scene& s) { s.settings.transparency = Transparency::off; },
         [](Scene& s) { s.background.color->r = 0; },
         [](Scene& s) { s.skybox->width = 1; },
         [](Scene& s) { s.entity.reset(); },
@@ -132,6 +135,8 @@ TEST_CASE("equality sees every field") {
         [](Scene& s) { s.groups[0].transforms[0] = Scale{}; },
         [](Scene& s) { s.groups[0].scatter->seed = 99; },
         [](Scene& s) { s.groups[0].models[1].autoLod = false; },
+        [](Scene& s) { s.groups[0].models[1].opacity = 1; },
+        [](Scene& s) { s.groups[0].models[2].material->opacity = 1; },
         [](Scene& s) { s.groups[0].models[2].material->shininess = 1; },
         [](Scene& s) { s.groups[0].models[2].texture->planeS.x = 9; },
         [](Scene& s) { s.groups[0].models[3].texture->chess->rows = 1; },

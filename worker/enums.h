@@ -18,6 +18,7 @@ constexpr Shading lastOf(Shading) { return Shading::phong; }
 constexpr Filter lastOf(Filter) { return Filter::anisotropic; }
 constexpr Viewer lastOf(Viewer) { return Viewer::local; }
 constexpr Specular lastOf(Specular) { return Specular::separate; }
+constexpr Transparency lastOf(Transparency) { return Transparency::exact; }
 }  // namespace farol::scene
 
 namespace farol::image {

@@ -154,9 +154,11 @@ void Painter::State::prepare(FramePlan& plan, const OpenTexture& open) {
                        plan.lightSets[i].data(), GL_STREAM_DRAW);
     }
     prepareTextures(plan, open);
-    if (std::all_of(textureAlphas.begin(), textureAlphas.end(),
-                    [](image::Alpha alpha) { return alpha == image::Alpha::opaque; }))
-        return;
+    const bool allOpaque =
+        std::all_of(textureAlphas.begin(), textureAlphas.end(),
+                    [](image::Alpha alpha) { return alpha == image::Alpha::opaque; });
+    // Without their textures, models of other layers share draw calls.
+    if (allOpaque && (plan.style.layer == Layer::color || plan.textures.empty())) return;
     plan.textureAlphas = textureAlphas;
     composePasses(plan, facts);
     preparePlaces(plan);

@@ -6,8 +6,9 @@ namespace {
 constexpr std::array<float, 4> kNothing{};
 constexpr float kFarthest = 0.0F, kNearest = 1.0F;  // reversed depth
 
-Target::Format sumOf(Target::Format format) {
-    format.accumulates = true;
+/// In 8 bits each of many layers would be rounded.
+Target::Format finer(Target::Format format) {
+    format.isFloat = true;
     return format;
 }
 
@@ -15,8 +16,8 @@ Target::Format sumOf(Target::Format format) {
 
 Peeler::Peeler(const Api& api, const Target::Format& of, bool packInvert)
     : api_(api),
-      layers_{Target(api, of, packInvert), Target(api, of, packInvert)},
-      sum_(api, sumOf(of), packInvert),
+      layers_{Target(api, finer(of), packInvert), Target(api, finer(of), packInvert)},
+      sum_(api, finer(of), packInvert),
       any_(api) {}
 
 void Peeler::begin(const glm::ivec4& viewport) const {

@@ -33,17 +33,17 @@ void check(const Api& api) {
 
 Target::Target(const Api& api, const Format& format, bool packInvert)
     : api_(api), format_(format), packInvert_(packInvert), drawn_(api) {
-    const auto [width, height, samples, accumulates] = format;
-    color_ = storage(api, accumulates ? GL_RGBA16F : GL_RGBA8, width, height, samples);
-    if (!accumulates) depth_ = storage(api, GL_DEPTH_COMPONENT32F, width, height, samples);
+    const auto [width, height, samples, isFloat] = format;
+    color_ = storage(api, isFloat ? GL_RGBA16F : GL_RGBA8, width, height, samples);
+    depth_ = storage(api, GL_DEPTH_COMPONENT32F, width, height, samples);
     const auto attach = [&](GLenum point, const Texture& texture, GLenum kind) {
         api.FramebufferTexture2D(GL_FRAMEBUFFER, point, kind, texture.name(), 0);
     };
     api.BindFramebuffer(GL_FRAMEBUFFER, drawn_.name());
     attach(GL_COLOR_ATTACHMENT0, color_, textureKind());
-    if (depth_) attach(GL_DEPTH_ATTACHMENT, depth_, textureKind());
+    attach(GL_DEPTH_ATTACHMENT, depth_, textureKind());
     check(api);
-    if (samples <= 1 || accumulates) return;
+    if (samples <= 1 || isFloat) return;  // those are not read
     resolvedColor_ = storage(api, GL_RGBA8, width, height, 1);
     resolved_ = Framebuffer(api);
     api.BindFramebuffer(GL_FRAMEBUFFER, resolved_.name());

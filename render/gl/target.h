@@ -14,7 +14,7 @@ class Target {
     struct Format {
         int width = 0, height = 0;
         int samples = 1;
-        bool accumulates = false;  ///< half-float colours and no depth
+        bool isFloat = false;  ///< colours in half floats, else in 8 bits
         bool operator==(const Format&) const = default;
     };
 

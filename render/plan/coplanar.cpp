@@ -48,12 +48,12 @@ FlatFace rectangleRound(const std::vector<std::uint32_t>& corners,
              corner(low.x, high.y)}};
 }
 
-/// True where flat faces of the two in one plane have the same colour at each point.
+/// True where flat opaque faces of the two in one plane have the same colour at each point.
 bool looksAlike(const DrawItem& a, const DrawItem& b, const FrameStyle& style) {
     const bool byPixel =
         style.shading == scene::Shading::phong || style.shading == scene::Shading::solid;
     return byPixel && style.layer == Layer::color && a.texture < 0 && !a.colored &&
-           a.lightSet == b.lightSet && sameMaterial(a, b);
+           a.opacity == 1.0F && a.lightSet == b.lightSet && sameMaterial(a, b);
 }
 
 }  // namespace

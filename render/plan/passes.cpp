@@ -156,7 +156,7 @@ void addItems(const FramePlan& plan, Pass& pass) {
 /// target of another size costs its pages anew.
 int rowsOfTarget(const glm::ivec2& size, const Sampling& sampling, bool isPeeled) {
     constexpr std::int64_t kMaxTargetPixels = 32 << 20;  // 256 MiB of colour and depth
-    constexpr int kOfPeeled = 4;  // with the colours and depths of its layers
+    constexpr int kOfPeeled = 6;  // with the colours and depths of its layers
     if (sampling.scale == 1 && !isPeeled) return size.y;
     const std::int64_t row = std::int64_t{size.x} * sampling.scale * sampling.scale *
                              (isPeeled ? kOfPeeled * sampling.samples : 1);

@@ -16,6 +16,7 @@
 #include "render/plan/passes.h"
 #include "render/plan/quality.h"
 #include "render/plan/sampling.h"
+#include "render/plan/transparency.h"
 #include "scene/animation.h"
 
 namespace farol::render {
@@ -30,11 +31,6 @@ bool anyModel(const std::vector<scene::Group>& groups, bool (*test)(const scene:
         return std::any_of(group.models.begin(), group.models.end(), test) ||
                anyModel(group.groups, test);
     });
-}
-
-bool isFlat(const Box& box) {
-    const glm::dvec3 size = box.max - box.min;
-    return std::min({size.x, size.y, size.z}) <= 1e-6 * std::max({size.x, size.y, size.z});
 }
 
 /// The automatic choice: without lights, colours and textures the wireframe of the first phases;
@@ -315,6 +311,11 @@ class Planner {
             plan_.items.push_back(std::move(back));
         }
         if (whole != nullptr) coplanar_.add(*whole, placed, item, plan_.items.size());
+        if (whole != nullptr && item.isBody && item.opacity < 1.0F) {
+            DrawItem inner = item;
+            inner.mirrored = !inner.mirrored;
+            coplanar_.add(*whole, placed, inner, plan_.items.size());
+        }
         plan_.items.push_back(std::move(item));
     }
 

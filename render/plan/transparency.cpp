@@ -73,6 +73,11 @@ void sortBlended(std::vector<DrawItem>::iterator first, std::vector<DrawItem>::i
 
 }  // namespace
 
+bool isFlat(const Box& box) {
+    const glm::dvec3 size = box.max - box.min;
+    return std::min({size.x, size.y, size.z}) <= 1e-6 * std::max({size.x, size.y, size.z});
+}
+
 std::size_t arrangeSeeThrough(FramePlan& plan) {
     std::vector<DrawItem>& items = plan.items;
     std::erase_if(items, [](const DrawItem& item) { return item.isInner; });
@@ -82,6 +87,7 @@ std::size_t arrangeSeeThrough(FramePlan& plan) {
     plan.stats.cutOut = plan.stats.blended = 0;
     for (DrawItem& item : items) {
         item.alpha = alphaOf(plan, item);
+        if (layer && item.alpha == Alpha::opaque && !plan.textureAlphas.empty()) item.texture = -1;
         any |= item.alpha != Alpha::opaque;
         plan.stats.cutOut += item.alpha == Alpha::cutOut ? 1 : 0;
         plan.stats.blended += item.alpha == Alpha::blended ? 1 : 0;

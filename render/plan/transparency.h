@@ -4,6 +4,9 @@
 
 namespace farol::render {
 
+/// True where a box has no thickness along an axis, as that of a sheet.
+bool isFlat(const Box& box);
+
 /// Sorts see-through items behind the opaque ones, for composePasses; may be called again once
 /// FramePlan::textureAlphas is known. Sets DrawItem::alpha, adds the inner sides of bodies with
 /// holes or opacity under 1 (their own would be culled), and counts them in the statistics.

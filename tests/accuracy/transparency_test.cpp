@@ -1,7 +1,11 @@
 #include <catch2/catch.hpp>
+#include <cstdio>
+#include <map>
 
+#include "render/renderer.h"
 #include "tests/accuracy/measure.h"
 #include "tests/accuracy/pattern.h"
+#include "tests/support/exact.h"
 
 // See-through scenes against the ray caster, which adds up the surfaces of each ray in the order of
 // their depth.
@@ -49,9 +53,12 @@ void check(const std::string& title, const std::string& xml, Transparency transp
     print(title, figures);
     INFO(title);
     REQUIRE(figures.interior.pixels > 2000);
-    CHECK(figures.stray == 0);
+    // At poles the last row of triangles has a texture coordinate of its own at each tip, by
+    // convention: a few pixels are off there, and may be in a hole.
+    const bool tipped = title.find("sphere_") != std::string::npos;
+    CHECK(figures.stray <= (tipped ? 2 : 0));
     CHECK(figures.interior.rms < rms);
-    CHECK(figures.interior.percentile999 < 3.0);
+    CHECK(figures.interior.percentile999 < (tipped ? 4.0 : 3.0));
 }
 
 }  // namespace
@@ -124,4 +131,40 @@ TEST_CASE("cut-out and blended textures lie and are filtered as the exact ones")
                       document(behind + group("", "<model file=\"" + file +
                                                       "\"><texture file=\"it.png\"/></model>")),
                       Transparency::on, 0.8, supplies(side, side, alpha));
+}
+
+TEST_CASE("two thousand leaves with holes are close to their exact areas") {
+    const Supplies given = supplies(128, 128, PatternAlpha::holes);
+    std::string leaves;
+    for (int i = 0; i < 5; ++i)
+        leaves += R"(<group><scatter count="400" xzMin="0" xzMax="1.6" yMin="-1.2" yMax="1.4"/>
+            <transform><rotate angle=")" +
+                  std::to_string(72 * i) +
+                  R"(" y="1"/></transform><group><transform><rotate angle=")" +
+                  std::to_string(30 + 12 * i) +
+                  R"(" x="1"/></transform><models><model command="plane 0.3" twoSided="true">
+            <texture file="it.png"/></model></models></group></group>)";
+    const bench::Subject subject = bench::readSubject(document(leaves), given.assets);
+    REQUIRE(subject.leftOut.empty());
+    constexpr int kSide = 200;
+    const bench::Exact exact = bench::exactOf(subject, kSide, kSide, 8);
+    std::map<int, double> areas;
+    for (const int samples : {1, 4, 8}) {
+        render::Job job;
+        job.xml = subject.xml(0);
+        job.assets = given.assets;
+        job.options = options(Transparency::on);
+        job.options.samples = samples;
+        job.options.width = job.options.height = kSide;
+        image::Image image;
+        const render::Stats stats = render::Renderer().draw(job, image).stats;
+        CHECK(stats.cutOut > 3000);  // both sides
+        CHECK(stats.blended == 0);
+        const bench::Errors errors = bench::errorsOf(exact, image);
+        areas[samples] = errors.areasRms;
+        std::printf("2,000 leaves aa=%d: interior rms %.2f, areas rms %.2f, FLIP %.4f\n", samples,
+                    errors.interiorRms, errors.areasRms, errors.flipObjects);
+    }
+    CHECK(areas[4] < 0.6 * areas[1]);
+    CHECK(areas[8] < areas[4]);
 }

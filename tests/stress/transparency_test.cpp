@@ -29,8 +29,8 @@ std::string plain(const glm::ivec4& color, int side = 4) {
     return image::encodePng(image);
 }
 
-Drawn render(const std::string& xml, const std::map<std::string, std::string>& files = {},
-             render::PictureOptions options = {}) {
+Drawn drawScene(const std::string& xml, const std::map<std::string, std::string>& files = {},
+                render::PictureOptions options = {}) {
     render::Job job;
     job.xml = xml;
     job.assets = std::make_shared<scene::BundleAssets>(files);
@@ -88,16 +88,16 @@ TEST_CASE("a pane lets a skybox, a picture and a clear background through") {
                 for (const int value : {40, 90, 200, 255})
                     cross.pixels.push_back(static_cast<std::uint8_t>(value));
             const Drawn sky =
-                render(seenFrom3(pane(0, kWhite, 0.4) + R"(<skybox texture="sky.png"/>)"),
-                       {{"sky.png", image::encodePng(cross)}}, with(mode, samples));
+                drawScene(seenFrom3(pane(0, kWhite, 0.4) + R"(<skybox texture="sky.png"/>)"),
+                          {{"sky.png", image::encodePng(cross)}}, with(mode, samples));
             CHECK(isNear(pixel(sky.image, 32, 32), {126, 156, 222}));
             const Drawn picture =
-                render(seenFrom3(pane(0, kWhite, 0.4) + R"(<background texture="b.png"/>)"),
-                       {{"b.png", plain({40, 90, 200, 255})}}, with(mode, samples));
+                drawScene(seenFrom3(pane(0, kWhite, 0.4) + R"(<background texture="b.png"/>)"),
+                          {{"b.png", plain({40, 90, 200, 255})}}, with(mode, samples));
             CHECK(isNear(pixel(picture.image, 32, 32), {126, 156, 222}));
             render::PictureOptions clear = with(mode, samples);
             clear.background = "transparent";
-            const Drawn nothing = render(seenFrom3(pane(0, kRed, 0.4)), {}, clear);
+            const Drawn nothing = drawScene(seenFrom3(pane(0, kRed, 0.4)), {}, clear);
             const std::size_t middle = 4 * (32 * 64 + 32);
             CHECK(isNear(pixel(nothing.image, 32, 32), {255, 0, 0}));
             CHECK(std::abs(int{nothing.image.pixels[middle + 3]} - 102) <= 1);
@@ -108,11 +108,11 @@ TEST_CASE(
     "of coplanar panes the first of the document is in front, whatever their order in depth") {
     for (const Transparency mode : kDrawn)
         for (const int samples : {1, 4}) {
-            const Drawn same = render(seenFrom3(pane(0, kRed, 0.5) + pane(0, kBlue, 0.5)), {},
-                                      with(mode, samples));
+            const Drawn same = drawScene(seenFrom3(pane(0, kRed, 0.5) + pane(0, kBlue, 0.5)), {},
+                                         with(mode, samples));
             CHECK(isNear(pixel(same.image, 32, 32), {128, 0, 64}));
-            const Drawn apart = render(seenFrom3(pane(0, kRed, 0.5) + pane(1, kBlue, 0.5)), {},
-                                       with(mode, samples));
+            const Drawn apart = drawScene(seenFrom3(pane(0, kRed, 0.5) + pane(1, kBlue, 0.5)), {},
+                                          with(mode, samples));
             CHECK(isNear(pixel(apart.image, 32, 32), {64, 0, 128}));
         }
 }
@@ -120,7 +120,7 @@ TEST_CASE(
 TEST_CASE("an opaque model hides the panes behind it and shows through those before it") {
     for (const Transparency mode : kDrawn)
         for (const int samples : {1, 4}) {
-            const Drawn drawn = render(
+            const Drawn drawn = drawScene(
                 seenFrom3(pane(0.5, kRed, 0.5) + pane(0, kBlue, 1.0) + pane(-0.5, kWhite, 0.9)), {},
                 with(mode, samples));
             CHECK(isNear(pixel(drawn.image, 32, 32), {128, 0, 128}));
@@ -134,14 +134,15 @@ TEST_CASE("layers show the nearest surface that is at least half opaque") {
     for (const Transparency mode : kDrawn) {
         render::PictureOptions options = with(mode);
         options.layer = render::Layer::id;
-        CHECK(pixel(render(seenFrom3(panes), {}, options).image, 32, 32) == glm::ivec3(0, 0, 2));
+        CHECK(pixel(drawScene(seenFrom3(panes), {}, options).image, 32, 32) == glm::ivec3(0, 0, 2));
         options.layer = render::Layer::depth;
-        const int depth = pixel(render(seenFrom3(panes), {}, options).image, 32, 32).r;
-        CHECK(depth == pixel(render(seenFrom3(pane(0, kRed, 1.0)), {}, options).image, 32, 32).r);
+        const int depth = pixel(drawScene(seenFrom3(panes), {}, options).image, 32, 32).r;
+        CHECK(depth ==
+              pixel(drawScene(seenFrom3(pane(0, kRed, 1.0)), {}, options).image, 32, 32).r);
     }
     render::PictureOptions off = with(Transparency::off);
     off.layer = render::Layer::id;
-    CHECK(pixel(render(seenFrom3(panes), {}, off).image, 32, 32) == glm::ivec3(0, 0, 1));
+    CHECK(pixel(drawScene(seenFrom3(panes), {}, off).image, 32, 32) == glm::ivec3(0, 0, 1));
     // A card with a clear left half.
     image::Image card{16, 16, {}};
     for (int i = 0; i < 256; ++i)
@@ -155,7 +156,7 @@ TEST_CASE("layers show the nearest surface that is at least half opaque") {
         render::PictureOptions options = with(Transparency::on);
         options.layer = layer;
         const Drawn drawn =
-            render(seenFrom3(model), {{"card.png", image::encodePng(card)}}, options);
+            drawScene(seenFrom3(model), {{"card.png", image::encodePng(card)}}, options);
         CHECK(pixel(drawn.image, 16, 32) ==
               (layer == render::Layer::id ? glm::ivec3(0, 0, 2) : glm::ivec3(0, 0, 255)));
         CHECK(pixel(drawn.image, 48, 32) != pixel(drawn.image, 16, 32));
@@ -166,9 +167,9 @@ TEST_CASE("layers show the nearest surface that is at least half opaque") {
 TEST_CASE("a hundred panes are added up; of sorted surfaces the nearest 64, with a warning") {
     std::string panes;
     for (int i = 0; i < 100; ++i) panes += pane(-0.05 * i, i % 2 ? kRed : kBlue, 0.02);
-    const Drawn sorted = render(seenFrom3(panes), {}, with(Transparency::on));
+    const Drawn sorted = drawScene(seenFrom3(panes), {}, with(Transparency::on));
     CHECK_FALSE(sorted.has("limit.layers"));
-    const Drawn peeled = render(seenFrom3(panes), {}, with(Transparency::exact));
+    const Drawn peeled = drawScene(seenFrom3(panes), {}, with(Transparency::exact));
     CHECK(peeled.has("limit.layers"));
     CHECK(peeled.picture.stats.peeledLayers == 64);
     // The sum of a geometric series, of 64 panes.
@@ -182,7 +183,7 @@ TEST_CASE("switched off, what is seen through is opaque, with an info") {
         R"(<model command="plane 2"><texture file="red.png"/></model>
            <model command="plane 2"><texture file="blue.png"/></model>)";
     const auto drawn = [&](int alpha, Transparency mode) {
-        return render(
+        return drawScene(
             world(two),
             {{"red.png", plain({255, 0, 0, alpha})}, {"blue.png", plain({0, 0, 255, alpha})}},
             with(mode, 4));
@@ -199,17 +200,17 @@ TEST_CASE("switched off, what is seen through is opaque, with an info") {
     CHECK(drawn(0, Transparency::on).image.pixels == opaque.image.pixels);
     CHECK(drawn(0, Transparency::on).has("image.alpha"));
     const std::string glass = pane(0, kRed, 0.5);
-    CHECK(render(seenFrom3(glass), {}, with(Transparency::off)).has("scene.opacity"));
-    CHECK(isNear(pixel(render(seenFrom3(glass), {}, with(Transparency::off)).image, 32, 32),
+    CHECK(drawScene(seenFrom3(glass), {}, with(Transparency::off)).has("scene.opacity"));
+    CHECK(isNear(pixel(drawScene(seenFrom3(glass), {}, with(Transparency::off)).image, 32, 32),
                  {255, 0, 0}));
 }
 
 TEST_CASE("a scene without opacity and alpha has the same bytes on, off and exact") {
     for (const int samples : {1, 4, 8}) {
-        const Drawn on = render(still(0.0), {}, with(Transparency::on, samples));
+        const Drawn on = drawScene(still(0.0), {}, with(Transparency::on, samples));
         CHECK(covered(on.image) > 500);
-        CHECK(render(still(0.0), {}, with(Transparency::off, samples)).image == on.image);
-        CHECK(render(still(0.0), {}, with(Transparency::exact, samples)).image == on.image);
+        CHECK(drawScene(still(0.0), {}, with(Transparency::off, samples)).image == on.image);
+        CHECK(drawScene(still(0.0), {}, with(Transparency::exact, samples)).image == on.image);
     }
 }
 

@@ -219,18 +219,11 @@ Picture Renderer::State::draw(const Prepared& prepared, const Placed& placed, co
     picture.times.geometryMs = watch.lapMs();
 
     gl::Painter::Timings timings;
-<<<<<<< HEAD
-    Diagnostics warnings;  // about textures
+    Diagnostics warnings;  // about textures and see-through layers
     painter().draw(
         frame,
         [&](const TextureRef& ref) { return prefetch ? prefetch->open(ref) : openFile(ref); }, out,
-        frame.stats.drawCalls, timings, warnings);
-=======
-    Diagnostics warnings;  // about textures and see-through layers
-    painter.draw(
-        frame, [&](const TextureRef& ref) { return openTexture(ref, *prepared.assets); }, out,
         timings, warnings);
->>>>>>> 564ede3 (render: see-through textures and materials)
     takeFindings(picture.diagnostics, warnings, job);
     if (isBlank(frame, out))
         takeFindings(

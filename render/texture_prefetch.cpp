@@ -28,7 +28,7 @@ TexturePrefetch::TexturePrefetch(const std::vector<TextureRef>& refs, OpenTextur
             return decoded;
         });
         started_.emplace(ref.key,
-                         Started{file.width, file.height,
+                         Started{file.width, file.height, file.mayHaveAlpha,
                                  std::make_shared<std::future<Decoded>>(std::move(image))});
     }
 }
@@ -38,7 +38,8 @@ UndecodedTexture TexturePrefetch::open(const TextureRef& ref) {
     if (at == started_.end()) return open_(ref);
     const Started started = std::move(at->second);
     started_.erase(at);
-    return {started.width, started.height, [image = started.image](std::string& damage) {
+    return {started.width, started.height, started.mayHaveAlpha,
+            [image = started.image](std::string& damage) {
                 Decoded decoded = image->get();
                 damage = std::move(decoded.damage);
                 return std::move(decoded.image);

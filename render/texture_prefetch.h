@@ -29,6 +29,7 @@ class TexturePrefetch {
     };
     struct Started {
         int width, height;
+        bool mayHaveAlpha;
         std::shared_ptr<std::future<Decoded>> image;  ///< its destructor waits
     };
 

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <glm/gtc/type_ptr.hpp>
 
 #include "render/gl/painter_state.h"
@@ -46,6 +45,7 @@ ProgramKey keyOf(const FramePlan& plan, const Pass& pass, const Batch& batch) {
     if (!key.features.has(Feature::textured)) key.features.remove(Feature::supersampled);
     if (!key.features.hasAny({Feature::alphaTest, Feature::peeled}))
         key.features.remove(Feature::eachSample);
+    if (key.features.has(Feature::eachSample)) key.samples = pass.target.samples;
     if (key.features.has(Feature::surface))
         key.surfaceKind = plan.items[plan.batches.order[batch.first]].surface->kind->glsl;
     const auto set = static_cast<std::size_t>(first.lightSet);
@@ -81,18 +81,15 @@ void Painter::State::setScale(const Pass& pass, const LinkedProgram& program) {
 
 /// Places of the GL's samples, where the program tests them.
 void Painter::State::setSamples(const Pass& pass, const LinkedProgram& program) {
-    if (program.sampleCount < 0) return;
-    constexpr std::size_t kMaxSamples = 16;  // of samplePlaces in the shader
-    std::array<glm::vec2, kMaxSamples> places{};
+    if (program.samplePlaces < 0) return;
     const auto pattern = std::find_if(
         facts.samplePatterns.begin(), facts.samplePatterns.end(), [&](const SamplePattern& one) {
             return one.size() == static_cast<std::size_t>(pass.target.samples);
         });
     if (pattern == facts.samplePatterns.end()) return;
-    const std::size_t count = std::min(pattern->size(), kMaxSamples);
-    for (std::size_t i = 0; i < count; ++i) places[i] = glm::vec2((*pattern)[i] - 0.5);
-    api.Uniform1i(program.sampleCount, static_cast<GLint>(count));
-    api.Uniform2fv(program.samplePlaces, static_cast<GLsizei>(count),
+    std::vector<glm::vec2> places;
+    for (const glm::dvec2& place : *pattern) places.emplace_back(place - 0.5);
+    api.Uniform2fv(program.samplePlaces, static_cast<GLsizei>(places.size()),
                    glm::value_ptr(places.front()));
 }
 
@@ -228,9 +225,12 @@ void Painter::State::drawPeeled(const FramePlan& plan, const Pass& pass, const P
 
 /// Blends a target of the same format over the bound one.
 void Painter::State::drawLayer(const Target& layer) {
-    FeatureSet features{Feature::layer};
-    if (layer.format().samples > 1) features.add(Feature::eachSample);
-    api.UseProgram(programs.get({Shaders::window, features, 0}).program.name());
+    ProgramKey key{Shaders::window, {Feature::layer}};
+    if (layer.format().samples > 1) {
+        key.features.add(Feature::eachSample);
+        key.samples = layer.format().samples;
+    }
+    api.UseProgram(programs.get(key).program.name());
     api.BindTexture(layer.textureKind(), layer.color());
     api.BindVertexArray(emptyArray.name());
     api.Disable(GL_DEPTH_TEST);

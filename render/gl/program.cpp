@@ -47,7 +47,7 @@ constexpr std::array<FeatureName, kFeatures> kNames{{
     {Feature::supersampled, "SUPERSAMPLED"},
     {Feature::vertexColor, "VERTEX_COLOR"},
     {Feature::alphaTest, "ALPHA_TEST"},
-    {Feature::eachSample, "EACH_SAMPLE"},
+    {Feature::eachSample, "EACH_SAMPLE", true},
     {Feature::blended, "BLENDED"},
     {Feature::peeled, "PEELED"},
     {Feature::surface, "SURFACE"},
@@ -77,7 +77,8 @@ std::string definesOf(const ProgramKey& key) {
     for (const FeatureName& row : kNames) {
         if (!key.features.has(row.feature)) continue;
         text += std::string("#define ") + row.name;
-        if (row.counted) text += ' ' + std::to_string(key.count);
+        const int count = row.feature == Feature::eachSample ? key.samples : key.count;
+        if (row.counted) text += ' ' + std::to_string(count);
         text += '\n';
     }
     return text;
@@ -179,7 +180,6 @@ const LinkedProgram& ProgramCache::get(const ProgramKey& key) {
     linked.tangents = at("tangents");
     linked.samplesAcross = at("samplesAcross");
     linked.opacity = at("opacity");
-    linked.sampleCount = at("sampleCount");
     linked.samplePlaces = at("samplePlaces");
     return programs_.emplace(key, std::move(linked)).first->second;
 }

@@ -17,6 +17,7 @@ struct ProgramKey {
     Shaders shaders = Shaders::model;
     FeatureSet features;
     int count = 0;                      ///< of lights (lightCount) or samples (resolve)
+    int samples = 0;                    ///< of the target (eachSample)
     std::string_view surfaceKind = {};  ///< generator::SurfaceKind::glsl
     auto operator<=>(const ProgramKey&) const = default;
 };
@@ -30,7 +31,7 @@ struct LinkedProgram {
         seenFrom;
     GLint lightCount, plainColor, planeS, planeT, uvFrom, mappedFrom, nearest, tangents,
         samplesAcross;
-    GLint opacity, sampleCount, samplePlaces;
+    GLint opacity, samplePlaces;
 };
 
 /// Programs by key, compiled once. Throws std::runtime_error with the compiler's log: a shader

@@ -35,7 +35,7 @@ enum class Feature : std::uint8_t {
     vertexColor,   ///< the mesh's own colours modulate, as a texture does
     // Opacity.
     alphaTest,   ///< pixels under half opacity are left out
-    eachSample,  ///< the GL's samples are tested one by one
+    eachSample,  ///< counted: the GL's samples are tested one by one
     blended,     ///< premultiplied colour and opacity
     peeled,      ///< surfaces behind the layer before and in front of opaque ones
     // Exact surface behind a mesh.

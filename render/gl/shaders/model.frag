@@ -116,12 +116,11 @@ void main() {
     // A pixel's colour is the mean of its samples that are there.
     vec4 texel = vec4(0.0);
     int there = 0;
-    for (int i = 0; i < sampleCount; ++i) {
+    for (int i = 0; i < EACH_SAMPLE; ++i) {
         sampleShift = samplePlaces[i];
         vec4 one = TEXEL;
-        if (one.a < 0.5) continue;
-        there |= 1 << i;
-        texel += one;
+        there |= one.a < 0.5 ? 0 : 1 << i;
+        texel += one.a < 0.5 ? vec4(0.0) : one;
     }
     if (there == 0) discard;
     gl_SampleMask[0] = there;

@@ -16,8 +16,7 @@ uniform float samplesAcross;  // of a pixel of the image, whose level of detail 
 #define CHANGE_UP(v) CHANGE(dFdy, v)
 
 #if defined(ALPHA_TEST) && defined(EACH_SAMPLE)
-uniform int sampleCount;
-uniform vec2 samplePlaces[16];  // from the pixel's middle, px
+uniform vec2 samplePlaces[EACH_SAMPLE];  // from the pixel's middle, px
 vec2 sampleShift = vec2(0.0);   // place in the pixel that is looked up
 #endif
 

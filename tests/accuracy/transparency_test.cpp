@@ -54,7 +54,7 @@ void check(const std::string& title, const std::string& xml, Transparency transp
     print(title, figures);
     INFO(title);
     REQUIRE(figures.interior.pixels > 2000);
-    // At poles the last row of triangles has a texture coordinate of its own at each tip, by
+    // At poles the last row of triangles has another texture coordinate at each tip, by
     // convention: a few pixels are off there, and may be in a hole.
     const bool tipped = title.find("sphere_") != std::string::npos;
     CHECK(figures.stray <= (tipped ? 2 : 0));

@@ -122,6 +122,8 @@ class SceneWriter {
         if (settings.axes) out_.text("axes", *settings.axes ? "true" : "false");
         if (settings.viewer) out_.text("viewer", kViewerWords[*settings.viewer]);
         if (settings.specular) out_.text("specular", kSpecularWords[*settings.specular]);
+        if (settings.transparency)
+            out_.text("transparency", kTransparencyWords[*settings.transparency]);
         if (settings.timeRangeS)
             out_.text("time", formatNumber(settings.timeRangeS->x) + " " +
                                   formatNumber(settings.timeRangeS->y));
@@ -314,6 +316,10 @@ class SceneWriter {
             if (model.autoLod) out_.text("lod", "auto");
             if (model.twoSided) out_.text("twoSided", "true");
         }
+        // Other forms than the canonical one have an attribute of the model alone.
+        const float ofMaterial = model.material ? model.material->opacity : 1.0F;
+        const float opacity = model.opacity * (form_ == Form::canonical ? 1.0F : ofMaterial);
+        if (opacity != 1.0F) out_.text("opacity", floatText(opacity));
         out_.optionalText("id", model.id);
         out_.optionalText("name", model.name);
         if (form_ == Form::engine2017 || form_ == Form::engine2020) {
@@ -342,8 +348,9 @@ class SceneWriter {
         out_.text("shininess", floatText(material.shininess));
     }
 
-    void color(std::string_view name, const Color& color) {
+    void color(std::string_view name, const Color& color, float opacity = 1.0F) {
         out_.begin(name);
+        if (opacity != 1.0F) out_.text("A", floatText(opacity));
         if (color.cycles) {
             out_.text("cycles", "true");
             return out_.leaf();
@@ -366,7 +373,7 @@ class SceneWriter {
     void material(const Material& material) {
         out_.begin("color");
         out_.content();
-        color("diffuse", material.diffuse);
+        color("diffuse", material.diffuse, form_ == Form::canonical ? material.opacity : 1.0F);
         color("ambient", material.ambient);
         color("specular", material.specular);
         color("emissive", material.emissive);

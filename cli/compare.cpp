@@ -1,5 +1,6 @@
 #include "grade/images/compare.h"
 
+#include <algorithm>
 #include <iostream>
 #include <memory>
 #include <vector>
@@ -56,26 +57,46 @@ std::string number(double value) {
     return text;
 }
 
-void print(const grade::Comparison& found) {
-    std::cout << found.width << "x" << found.height << " pixels; levels are of 255\n"
-              << "                 same pixel   least of 3x3\n";
-    const auto row = [](const std::string& name, double plain, double tolerant) {
-        char line[96];
-        std::snprintf(line, sizeof line, "%-12s %14.4f %14.4f\n", name.c_str(), plain, tolerant);
-        std::cout << line;
+/// The text in a column of that many characters: on its left, or on its right.
+std::string padded(const std::string& text, std::size_t width, bool isRight) {
+    const auto length =
+        static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
+            return (static_cast<unsigned>(c) & 0xC0U) != 0x80U;
+        }));
+    const std::string blanks(width > length ? width - length : 0, ' ');
+    return isRight ? blanks + text : text + blanks;
+}
+
+void print(const grade::Comparison& found, Language language) {
+    constexpr std::size_t kName = 12, kColumn = 15;
+    const auto row = [&](const Message& name, const std::string& plain,
+                         const std::string& tolerant) {
+        std::cout << padded(name.empty() ? "" : textIn(language, name), kName, false)
+                  << padded(plain, kColumn, true) << padded(tolerant, kColumn, true) << "\n";
     };
-    row("mean", found.meanLevels, found.tolerantMeanLevels);
-    row("max", found.maxLevels, found.tolerantMaxLevels);
+    std::cout << textIn(language, message<"part.compare/size">("width"_arg = found.width,
+                                                               "height"_arg = found.height))
+              << "\n";
+    row({}, textIn(language, message<"part.compare/same">()),
+        textIn(language, message<"part.compare/least">()));
+    row(message<"part.compare/mean">(), number(found.meanLevels), number(found.tolerantMeanLevels));
+    row(message<"part.compare/max">(), number(found.maxLevels), number(found.tolerantMaxLevels));
     for (std::size_t i = 0; i < grade::kLevels.size(); ++i)
-        row("% within " + std::to_string(grade::kLevels[i]), 100.0 * found.within[i],
-            100.0 * found.tolerantWithin[i]);
-    std::cout << "PSNR " << number(found.psnrDb) << " dB, SSIM "
-              << (found.ssim ? number(*found.ssim) : "-") << ", FLIP mean "
-              << number(found.flip.mean) << ", median " << number(found.flip.median) << ", p95 "
-              << number(found.flip.p95) << ", p99 " << number(found.flip.p99) << ", max "
-              << number(found.flip.max) << std::endl;
+        row(message<"part.compare/within">("levels"_arg = grade::kLevels[i]),
+            number(100.0 * found.within[i]), number(100.0 * found.tolerantWithin[i]));
+    std::cout << textIn(language,
+                        message<"part.compare/summary">(
+                            "psnr"_arg = number(found.psnrDb),
+                            "ssim"_arg = found.ssim ? number(*found.ssim) : "-",
+                            "mean"_arg = number(found.flip.mean),
+                            "median"_arg = number(found.flip.median),
+                            "upper"_arg = number(found.flip.p95),
+                            "top"_arg = number(found.flip.p99), "max"_arg = number(found.flip.max)))
+              << std::endl;
     if (found.counted < 1.0)
-        std::cout << number(100.0 * found.counted) << " % of the pixels count" << std::endl;
+        std::cout << textIn(language, message<"part.compare/counted">(
+                                          "share"_arg = number(100.0 * found.counted)))
+                  << std::endl;
 }
 
 int compare(const Flags& flags, const image::Image& first, const image::Image& second,
@@ -90,7 +111,7 @@ int compare(const Flags& flags, const image::Image& first, const image::Image& s
         outputs.write(1, image::encodePng(grade::heatMap(
                              grade::flip(grade::FloatImage(first), grade::FloatImage(second)))));
     report.merge(parseJson(grade::toJson(found), grade::kComparisonJson));
-    if (!report.json()) print(found);
+    if (!report.json()) print(found, report.language());
     return kDone;
 }
 

@@ -45,10 +45,16 @@ int check(const MeshComparison& comparison, const std::string& bytes,
     report.set("places", found.places);
     report.set("expectedPlaces", found.expectedPlaces);
     if (!report.json())
-        std::cout << comparison.file << ": " << found.triangles << " triangles, expected "
-                  << found.expectedTriangles << "; " << found.places
-                  << " vertices at different places, expected " << found.expectedPlaces << "\n"
-                  << (found.isRight() ? "it is the expected mesh" : "it is not the expected mesh")
+        std::cout << textIn(
+                         report.language(),
+                         message<"part.mesh-check/counts">(
+                             "file"_arg = uncut(comparison.file), "triangles"_arg = found.triangles,
+                             "expected"_arg = found.expectedTriangles, "places"_arg = found.places,
+                             "needed"_arg = found.expectedPlaces))
+                  << "\n"
+                  << textIn(report.language(), found.isRight()
+                                                   ? message<"part.mesh-check/same">()
+                                                   : message<"part.mesh-check/different">())
                   << std::endl;
     return found.isRight() ? kDone : kInputFault;
 }

@@ -31,16 +31,16 @@ std::string placeOf(const Location& where) {
     return where.file + ":" + std::to_string(where.line) + ": ";
 }
 
-nlohmann::json toJson(const grade::RequiredThing& thing) {
-    nlohmann::json out{{"who", thing.who}};
-    if (!thing.reason.empty()) out["message"] = thing.reason;
+nlohmann::json toJson(const grade::RequiredThing& thing, Language language) {
+    nlohmann::json out{{"who", textIn(language, thing.who)}};
+    if (!thing.reason.empty()) out["message"] = textIn(language, thing.reason);
     if (!thing.where.file.empty()) out["file"] = thing.where.file;
     if (thing.where.line > 0) out["line"] = thing.where.line;
     return out;
 }
 
-nlohmann::json toJson(const grade::ExplainedObject& object) {
-    nlohmann::json out = toJson(object.thing);
+nlohmann::json toJson(const grade::ExplainedObject& object, Language language) {
+    nlohmann::json out = toJson(object.thing, language);
     out["shape"] = object.shape;
     if (!object.image.empty()) out["image"] = object.image;
     out["depth"] = object.depth;
@@ -53,28 +53,42 @@ nlohmann::json toJson(const grade::ExplainedObject& object) {
 }
 
 template <typename Things>
-nlohmann::json listOf(const Things& things) {
+nlohmann::json listOf(const Things& things, Language language) {
     nlohmann::json out = nlohmann::json::array();
-    for (const auto& thing : things) out.push_back(toJson(thing));
+    for (const auto& thing : things) out.push_back(toJson(thing, language));
     return out;
 }
 
-void print(const grade::ExplainedObject& object) {
-    std::cout << "  " << placeOf(object.thing.where) << object.thing.who << ": " << object.shape
-              << ", radius " << rounded(object.radius) << ", in " << object.depth << " groups"
-              << (object.moves ? ", moves" : ", stands still");
-    if (!object.image.empty()) std::cout << ", image " << object.image;
+void print(const grade::ExplainedObject& object, Language language) {
+    const auto part = [&](const Message& text) { std::cout << ", " << textIn(language, text); };
+    std::cout << "  " << placeOf(object.thing.where)
+              << textIn(language,
+                        message<"part.explain/object">(
+                            "who"_arg = object.thing.who, "shape"_arg = object.shape,
+                            "radius"_arg = rounded(object.radius), "depth"_arg = object.depth));
+    part(object.moves ? message<"part.explain/moves">() : message<"part.explain/still">());
+    if (!object.image.empty())
+        part(message<"part.explain/image">("file"_arg = uncut(object.image)));
     if (object.orbitRadius)
-        std::cout << ", orbit " << rounded(*object.orbitRadius) << " in "
-                  << rounded(object.periodS.value_or(0.0)) << " s";
-    std::cout << ", pixels "
-              << joined(object.pixels, " ", [](int pixels) { return std::to_string(pixels); })
-              << "\n";
+        part(message<"part.explain/orbit">("radius"_arg = rounded(*object.orbitRadius),
+                                           "seconds"_arg = rounded(object.periodS.value_or(0.0))));
+    part(message<"part.explain/pixels">(
+        "counts"_arg =
+            uncut(joined(object.pixels, " ", [](int pixels) { return std::to_string(pixels); }))));
+    std::cout << "\n";
 }
 
-void printMisses(const std::vector<grade::RequiredThing>& misses) {
+Message stateOf(grade::Met met) {
+    if (met == grade::Met::yes) return message<"part.explain/met">();
+    return met == grade::Met::partly ? message<"part.explain/partly">()
+                                     : message<"part.explain/unmet">();
+}
+
+void printMisses(const std::vector<grade::RequiredThing>& misses, Language language) {
     for (const grade::RequiredThing& miss : misses)
-        std::cout << "  no: " << placeOf(miss.where) << miss.who << " " << miss.reason << "\n";
+        std::cout << "  " << textIn(language, message<"part.explain/no">()) << ": "
+                  << placeOf(miss.where) << textIn(language, miss.who) << " "
+                  << textIn(language, miss.reason) << "\n";
 }
 
 int explain(const render::Job& job, const grade::Rubric& rubric, Report& report) {
@@ -87,44 +101,52 @@ int explain(const render::Job& job, const grade::Rubric& rubric, Report& report)
     grade::Requirements requirements(rubric, renderer, meshes, prepared, job);
     const std::vector<grade::ExplainedSelector> all = selectors.explain();
     const std::vector<grade::RequirementGrade> grades = requirements.grade();
+    const Language language = report.language();
     nlohmann::json objects = nlohmann::json::array(), results = nlohmann::json::array();
     for (const grade::ExplainedSelector& one : all)
         objects.push_back({{"id", one.id},
                            {"kind", one.isDefinition ? "define" : "requirement"},
                            {"count", one.count},
-                           {"matches", listOf(one.objects)},
-                           {"misses", listOf(one.misses)}});
+                           {"matches", listOf(one.objects, language)},
+                           {"misses", listOf(one.misses, language)}});
     for (const grade::RequirementGrade& one : grades)
         results.push_back({{"id", one.id},
                            {"text", one.text},
                            {"state", grade::kMetWords[one.met]},
                            {"points", one.points},
                            {"most", one.most},
-                           {"reason", one.reason},
-                           {"matches", listOf(one.matches)},
-                           {"misses", listOf(one.misses)}});
+                           {"reason", textIn(language, one.reason)},
+                           {"matches", listOf(one.matches, language)},
+                           {"misses", listOf(one.misses, language)}});
     report.set("times", selectors.timesS());
     report.set("selectors", std::move(objects));
     report.set("requirements", std::move(results));
     if (report.json()) return kDone;
-    std::cout << "times "
-              << joined(selectors.timesS(), " ", [](double timeS) { return rounded(timeS); })
-              << " s\n";
+    std::cout << textIn(
+                     language,
+                     message<"part.explain/times">(
+                         "times"_arg = uncut(joined(selectors.timesS(), " ",
+                                                    [](double timeS) { return rounded(timeS); }))))
+              << "\n";
     for (const grade::ExplainedSelector& one : all) {
+        const auto id = "id"_arg = one.id;
+        const auto count = "count"_arg = one.count;
         std::cout << "\n"
-                  << one.id << (one.isDefinition ? " (define)" : "") << ": " << one.count
-                  << (one.count == 1 ? " object\n" : " objects\n");
-        for (const grade::ExplainedObject& object : one.objects) print(object);
-        printMisses(one.misses);
+                  << textIn(language, one.isDefinition ? message<"part.explain/define">(id, count)
+                                                       : message<"part.explain/count">(id, count))
+                  << "\n";
+        for (const grade::ExplainedObject& object : one.objects) print(object, language);
+        printMisses(one.misses, language);
     }
     std::cout << "\n";
     for (const grade::RequirementGrade& one : grades) {
-        std::cout << grade::kMetWords[one.met] << "  " << rounded(one.points) << " / "
-                  << rounded(one.most) << "  " << one.id << ": " << one.text << " (" << one.reason
-                  << ")\n";
+        std::cout << textIn(language, stateOf(one.met)) << "  " << rounded(one.points) << " / "
+                  << rounded(one.most) << "  " << one.id << ": " << one.text << " ("
+                  << textIn(language, one.reason) << ")\n";
         for (const grade::RequiredThing& match : one.matches)
-            std::cout << "  yes: " << placeOf(match.where) << match.who << "\n";
-        printMisses(one.misses);
+            std::cout << "  " << textIn(language, message<"part.explain/yes">()) << ": "
+                      << placeOf(match.where) << textIn(language, match.who) << "\n";
+        printMisses(one.misses, language);
     }
     std::cout << std::flush;
     return kDone;

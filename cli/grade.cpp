@@ -119,15 +119,29 @@ void printAgreement(const grade::Agreement& agreement, const std::string& file, 
         report.add(
             {diagnosticOf(Severity::warning, message<"grade.override-unused">(), {file, line, 0})});
     if (report.json()) {
+        const auto number = [](const std::optional<double>& value) {
+            return value ? nlohmann::json(*value) : nlohmann::json();
+        };
         report.set("agreement", {{"submissions", agreement.submissions.size()},
-                                 {"alpha", agreement.alpha.value_or(std::nan(""))},
-                                 {"tauB", agreement.tauB.value_or(std::nan(""))},
+                                 {"alpha", number(agreement.alpha)},
+                                 {"tauB", number(agreement.tauB)},
                                  {"meanDifference", agreement.meanDifference}});
         return;
     }
-    std::printf("agreement of %zu submissions: alpha %.3f, tau-b %.3f, mean difference %.2f\n",
-                agreement.submissions.size(), agreement.alpha.value_or(std::nan("")),
-                agreement.tauB.value_or(std::nan("")), agreement.meanDifference);
+    const auto text = [&](const std::optional<double>& value) {
+        if (!value) return textIn(report.language(), message<"part.agreement/undefined">());
+        char digits[32];
+        std::snprintf(digits, sizeof digits, "%.3f", *value);
+        return std::string(digits);
+    };
+    char difference[32];
+    std::snprintf(difference, sizeof difference, "%.2f", agreement.meanDifference);
+    std::printf("%s\n", textIn(report.language(),
+                               message<"part.agreement/summary">(
+                                   "count"_arg = agreement.submissions.size(),
+                                   "alpha"_arg = text(agreement.alpha),
+                                   "tau"_arg = text(agreement.tauB), "difference"_arg = difference))
+                            .c_str());
 }
 
 /// Reads the teacher's tables beside the class; returns the file name of the overrides.

@@ -77,7 +77,8 @@ int main(int argc, char** argv) {
     addCompletion(app, action);
     addManual(app, action);
     addWorker(app, action);
-    for (const char* name : {"validate", "render", "generate", "convert", "compare", "grade"})
+    for (const char* name :
+         {"validate", "render", "generate", "convert", "compare", "explain", "grade"})
         addLanguage(*app.get_subcommand(name), report);
     for (CLI::App* command : app.get_subcommands({}))
         if (command->get_option_no_throw("--json") == nullptr)  // of schema it is a form

@@ -9,7 +9,9 @@
 #include "generator/messages.h"
 #include "grade/messages.h"
 #include "grade/report/messages.h"
+#include "grade/report/student_messages.h"
 #include "grade/requirements/messages.h"
+#include "grade/rubric/kind_messages.h"
 #include "grade/structure/messages.h"
 #include "image/messages.h"
 #include "interchange/messages.h"
@@ -33,9 +35,11 @@ inline std::vector<std::span<const MessageRow>> messageTables() {
             render::kRenderMessages,
             interchange::kInterchangeMessages,
             grade::kGradeMessages,
+            grade::kKindMessages,
             grade::kCauseMessages,
             grade::kReportMessages,
             grade::kRequirementMessages,
+            grade::kStudentMessages,
             worker::kWorkerMessages,
             server::kServerMessages,
             cli::kCliMessages};

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "server/assignments/assignments.h"
 #include "server/catalogue.h"
 #include "server/http/traffic.h"
 #include "server/log.h"
@@ -23,11 +25,15 @@ struct ServiceOptions {
     std::size_t maxBodyBytes = 16U << 20;
     std::size_t cacheBytes = std::size_t{64} << 20U;  ///< of pictures kept; 0: none
     RateLimit rate;
-    std::string corsOrigin;                    ///< Access-Control-Allow-Origin; empty: not sent
-    std::string basePath;                      ///< before all paths, "/farol"; empty: nothing
-    std::shared_ptr<store::SceneStore> store;  ///< of uploads; never null
-    std::string token;                         ///< that writing to the store needs; empty: none
-    std::vector<std::string> allowedHosts;     ///< as SiteGuard takes them; empty: any
+    std::string corsOrigin;                       ///< Access-Control-Allow-Origin; empty: not sent
+    std::string basePath;                         ///< before all paths, "/farol"; empty: nothing
+    std::shared_ptr<store::SceneStore> store;     ///< of uploads; never null
+    std::shared_ptr<store::RecordStore> records;  ///< of assignments; never null
+    /// Answers to students leave at multiples of it after their requests, so that their time does
+    /// not depend on the reference; more than 0.
+    std::chrono::milliseconds checkTime{5'000};
+    std::string token;                      ///< that writing to the store needs; empty: none
+    std::vector<std::string> allowedHosts;  ///< as SiteGuard takes them; empty: any
     std::function<std::uint64_t()> droppedLogLines = [] { return 0; };  ///< for the metrics
 };
 
@@ -38,6 +44,7 @@ struct Context {
           backend(jobs),
           logger(log),
           store(*options.store),
+          assignments(*options.records),
           scenes(options.scenesDir, store, backend, logger),
           pictures(options.cacheBytes) {}
 
@@ -45,6 +52,7 @@ struct Context {
     worker::Backend& backend;
     Logger& logger;
     store::SceneStore& store;
+    Assignments assignments;
     Catalogue scenes;
     PictureCache pictures;
     Metrics metrics;

@@ -22,6 +22,7 @@ struct Call {
 struct RouteTraits {
     bool isWriting = false;     ///< changes stored scenes: needs the token if one is set
     bool drawsProblem = false;  ///< onerror=image: a problem becomes a picture
+    bool isTeachers = false;    ///< needs the token, and a server that has one
 };
 
 /// One line of the table of routes.

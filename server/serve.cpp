@@ -17,8 +17,10 @@
 #include "server/log_writer.h"
 #include "server/messages.h"
 #include "server/service.h"
+#include "server/store/disk_records.h"
 #include "server/store/disk_store.h"
 #include "server/store/memory_store.h"
+#include "server/store/redis_records.h"
 #include "server/store/redis_store.h"
 #include "worker/pool.h"
 
@@ -63,18 +65,25 @@ void checkOptions(const ServeOptions& options) {
                     "scenes");
 }
 
-std::shared_ptr<store::SceneStore> openStore(const ServeOptions& options, Logger& logger) {
+/// Sets the stores of uploads and of assignments; each has the limit for itself.
+void openStores(const ServeOptions& options, Logger& logger, ServiceOptions& service) {
     const bool inMemory = options.dataDir.empty() && options.storeUrl.empty();
     store::StoreLimits limits;
     limits.bytes = std::uint64_t{inMemory ? 128U : 1024U} << 20U;
     if (options.storeBytes > 0) limits.bytes = options.storeBytes;
     limits.expire = std::chrono::ceil<std::chrono::seconds>(options.expire);
-    if (inMemory) return std::make_shared<store::MemoryStore>(limits);
     const auto log = [&logger](const std::string& message) { logger.event("store", message); };
-    if (!options.dataDir.empty())
-        return std::make_shared<store::DiskStore>(options.dataDir, limits, log);
-    return std::make_shared<store::RedisStore>(store::redisAddressOf(options.storeUrl), limits,
-                                               log);
+    if (inMemory) {
+        service.store = std::make_shared<store::MemoryStore>(limits);
+        service.records = std::make_shared<store::MemoryRecords>(limits.bytes);
+    } else if (!options.dataDir.empty()) {
+        service.store = std::make_shared<store::DiskStore>(options.dataDir, limits, log);
+        service.records = std::make_shared<store::DiskRecords>(options.dataDir, limits.bytes, log);
+    } else {
+        const store::RedisAddress address = store::redisAddressOf(options.storeUrl);
+        service.store = std::make_shared<store::RedisStore>(address, limits, log);
+        service.records = std::make_shared<store::RedisRecords>(address, limits.bytes, log);
+    }
 }
 
 http::ListenOptions listenOptions(const ServeOptions& options, int processes, Logger& logger) {
@@ -194,8 +203,9 @@ int serve(const ServeOptions& options) {
     service.rate = options.rate;
     service.corsOrigin = options.corsOrigin;
     service.basePath = basePathOf(options.basePath);
-    service.store = openStore(options, logger);
+    openStores(options, logger, service);
     service.token = options.token;
+    service.checkTime = options.checkTime;
     service.allowedHosts = allowedHosts(options, logger);
     service.droppedLogLines = [&log] { return log.dropped(); };
     Service handler(std::move(service), backend, logger);

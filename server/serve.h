@@ -40,6 +40,7 @@ struct ServeOptions {
     std::uint64_t storeBytes = 0;        ///< of uploads; 0: 1 GiB, 128 MiB in memory
     std::chrono::milliseconds expire{7LL * 24 * 3600 * 1000};  ///< of uploads; 0: never
     std::string token;  ///< that writing needs; empty: $FAROL_TOKEN, else none
+    std::chrono::milliseconds checkTime{5'000};  ///< ServiceOptions::checkTime
 };
 
 /// Serves until SIGTERM, SIGINT or SIGHUP. Then it is unready and goes on serving for

@@ -21,6 +21,11 @@ constexpr std::chrono::milliseconds kRefusalHold{200};
 constexpr std::size_t kBodiesOfOne = 4;
 constexpr std::chrono::seconds kSweep{60};
 
+void checkToken(const Route& route, const http::Request& request, const std::string& token) {
+    if (route.traits.isWriting) requireToken(request, token);
+    if (route.traits.isTeachers) requireTeacher(request, token);
+}
+
 }  // namespace
 
 Service::Service(ServiceOptions options, worker::Backend& backend, Logger& logger)
@@ -43,7 +48,7 @@ std::size_t Service::bodyLimit(const http::Request& whole) const {
     if (route == nullptr) return 0;
     try {
         guard_.check(request);
-        if (route->traits.isWriting) requireToken(request, context_.options.token);
+        checkToken(*route, request, context_.options.token);
     } catch (const Error&) {
         return 0;
     }
@@ -70,8 +75,8 @@ http::Response Service::answer(const http::Request& request, http::Body& body) {
         isAdmitted = true;
         if (limiter_.isOn() && request.path.starts_with("/v1/"))
             limiter_.admit(clientOf(request, options.rate.trustProxy));
-        if (const Route* route = router_.find(request); route != nullptr && route->traits.isWriting)
-            requireToken(request, options.token);
+        if (const Route* route = router_.find(request); route != nullptr)
+            checkToken(*route, request, options.token);
         CountedBody counted(body, bodies_, clientOf(request, options.rate.trustProxy));
         response = router_.route(context_, request, counted);
     } catch (...) {
@@ -149,7 +154,7 @@ void Service::finish(const http::Request& request, http::Response& response) con
                  "X-Farol-Camera, "
                  "X-Farol-Diagnostics, Retry-After");
     if (request.method == "OPTIONS") {
-        response.set("Access-Control-Allow-Methods", "GET, HEAD, POST, DELETE, OPTIONS");
+        response.set("Access-Control-Allow-Methods", "GET, HEAD, POST, PUT, DELETE, OPTIONS");
         response.set("Access-Control-Allow-Headers",
                      "Content-Type, If-None-Match, Authorization, X-Request-Id");
         response.set("Access-Control-Max-Age", "600");
@@ -171,6 +176,12 @@ void Service::sweep() {
     if (now - last < pause.count() || !swept_.compare_exchange_strong(last, now)) return;
     if (const std::size_t gone = context_.store.expire(); gone > 0)
         context_.logger.event("expired", std::to_string(gone) + " scenes");
+    try {
+        if (const std::size_t gone = context_.assignments.expire(); gone > 0)
+            context_.logger.event("expired", std::to_string(gone) + " records");
+    } catch (const std::exception& fault) {  // the next sweep tries again
+        context_.logger.event("store", fault.what());
+    }
 }
 
 }  // namespace farol::server

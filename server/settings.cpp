@@ -104,6 +104,10 @@ std::vector<Setting> makeSettings() {
                FIELD(expire)),
         text("token", "what storing and deleting needs: \"Authorization: Bearer TOKEN\"", "TOKEN",
              FIELD(token)),
+        number("check-time",
+               "answers to students' checks of an assignment leave at multiples of it after the "
+               "request, s",
+               kMinTimeS, 60.0, FIELD(checkTime)),
         number("cache-bytes", "memory for pictures that were sent, bytes; 0: none", 0, 1LL << 40U,
                FIELD(cacheBytes)),
         number("rate", "requests of one client a second; 0: no limit", 0, 1e6,

@@ -134,6 +134,23 @@ image::Image crop(const image::Image& image, const Rectangle& part) {
     return out;
 }
 
+std::string coarseMask(const Plane& plane) {
+    constexpr float kDiffers = 0.25F;
+    constexpr int kShare = 20;
+    std::string out;
+    for (int row = 0; row < kMaskRows; ++row)
+        for (int column = 0; column < kMaskColumns; ++column) {
+            int all = 0, different = 0;
+            for (int y = row * plane.height / kMaskRows; y < (row + 1) * plane.height / kMaskRows;
+                 ++y)
+                for (int x = column * plane.width / kMaskColumns;
+                     x < (column + 1) * plane.width / kMaskColumns; ++x, ++all)
+                    different += plane.at(x, y) >= kDiffers ? 1 : 0;
+            out += all > 0 && kShare * different >= all ? '1' : '0';
+        }
+    return out;
+}
+
 image::Image heatMap(const Plane& plane) {
     constexpr std::array<std::array<float, 3>, 6> kColors{
         {{0, 0, 4}, {84, 15, 109}, {187, 55, 84}, {249, 142, 9}, {250, 220, 90}, {252, 255, 245}}};

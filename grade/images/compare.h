@@ -52,6 +52,12 @@ image::Image cut(const image::Image& image, const std::string& wanted);
 /// That part of the picture. Throws Error image.crop when it is empty or reaches beyond it.
 image::Image crop(const image::Image& image, const Rectangle& part);
 
+/// Cells of a coarse mask, across and down.
+inline constexpr int kMaskColumns = 16, kMaskRows = 12;
+/// Returns a character for each cell, in rows from the top: "1" where a twentieth or more of its
+/// pixels differ (a plane of 0..1), else "0".
+std::string coarseMask(const Plane& plane);
+
 /// A plane of 0..1 as a picture: black, violet, red, orange, yellow, white.
 image::Image heatMap(const Plane& plane);
 

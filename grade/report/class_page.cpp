@@ -30,13 +30,6 @@ nlohmann::json parsedGrade(const TaskResult& task) {
     return grade == nullptr ? nlohmann::json::object() : parseJson(grade->json, kGradeJson);
 }
 
-/// Returns the description of a kind of mistake; the code itself if this version does not know it.
-std::string aboutKind(const std::string& code) {
-    for (const Kind& kind : kinds())
-        if (kind.code == code) return std::string(kind.about);
-    return code;
-}
-
 /// A word of the page, escaped.
 std::string wordIn(const ClassResult& all, const Message& message) {
     return forMarkup(textIn(all.language, message));
@@ -69,8 +62,8 @@ void writeFrequencies(std::ostream& out, const ClassResult& all) {
         out << "<th>" << wordIn(all, head) << "</th>";
     out << "</tr></thead><tbody>\n";
     for (const auto& [code, entry] : ranked) {
-        out << "<tr><td>" << forMarkup(aboutKind(code)) << "</td><td>" << entry.students
-            << "</td><td>" << entry.places << "</td><td>"
+        out << "<tr><td>" << forMarkup(aboutKind(code, all.language)) << "</td><td>"
+            << entry.students << "</td><td>" << entry.places << "</td><td>"
             << twoDigits(entry.points / static_cast<double>(entry.students)) << "</td><td>"
             << forMarkup(entry.example) << "</td></tr>\n";
     }

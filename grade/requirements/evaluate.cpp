@@ -83,16 +83,16 @@ struct Requirements::State {
           solids(inventory, seen.timesS(), eyesOf(*prepared, seen.timesS(), meshes)),
           selector({inventory, motion, solids, seen}) {}
 
-    RequiredThing thingAt(std::string who, const Location& where, std::string reason) const {
+    RequiredThing thingAt(Message who, const Location& where, Message reason) const {
         const bool isHere = where.line > 0 && where.file == name;
         return {std::move(who), where, isHere ? excerptOf(document, where.line) : "",
                 std::move(reason)};
     }
     RequiredThing thing(std::size_t object) const {
-        return thingAt(inventory.nameOf(object), inventory.objects()[object].model->where, "");
+        return thingAt(inventory.nameOf(object), inventory.objects()[object].model->where, {});
     }
     RequiredThing miss(const NearMiss& near) const {
-        return thingAt(inventory.nameOf(near.object), near.fault.where, near.fault.reason.text);
+        return thingAt(inventory.nameOf(near.object), near.fault.where, near.fault.reason);
     }
 
     /// Objects of the wrong kind are not shown beside one of the right kind; those that meet an
@@ -145,11 +145,9 @@ struct Requirements::State {
                 continue;
             }
             RequiredThing miss = thing(matches[i]);
-            miss.reason =
-                requirementMessage<"part.miss/order">("rising"_arg = kOrderWords[order.rising],
-                                                      "value"_arg = shortNumber(values[i]),
-                                                      "before"_arg = shortNumber(before))
-                    .text;
+            miss.reason = requirementMessage<"part.miss/order">(
+                "rising"_arg = kOrderWords[order.rising], "value"_arg = shortNumber(values[i]),
+                "before"_arg = shortNumber(before));
             misses.push_back(std::move(miss));
         }
         matches = std::move(kept);
@@ -171,10 +169,9 @@ struct Requirements::State {
                 continue;
             }
             RequiredThing miss = thing(object);
-            miss.reason = requirementMessage<"part.miss/equal">(
-                              "what"_arg = isImage ? "image" : "mesh",
-                              "who"_arg = uncut(inventory.nameOf(known->second)))
-                              .text;
+            const auto who = "who"_arg = inventory.nameOf(known->second);
+            miss.reason = isImage ? requirementMessage<"part.miss/equal-image">(who)
+                                  : requirementMessage<"part.miss/equal-mesh">(who);
             misses.push_back(std::move(miss));
         }
         matches = std::move(kept);
@@ -283,17 +280,17 @@ RequirementGrade gradeOf(const Requirement& rule, int found, int base) {
     const auto count = "count"_arg = found;
     const auto needed = "needed"_arg = out.needed;
     if (out.needed == 0)
-        out.reason = requirementMessage<"part.unmet/each-none">("id"_arg = rule.each).text;
+        out.reason = requirementMessage<"part.unmet/each-none">("id"_arg = rule.each);
     else if (hasTooMany)
-        out.reason = requirementMessage<"part.unmet/many">(count, "most"_arg = *rule.atMost).text;
+        out.reason = requirementMessage<"part.unmet/many">(count, "most"_arg = *rule.atMost);
     else if (!rule.each.empty())
-        out.reason = requirementMessage<"part.met/each">(count, needed).text;
+        out.reason = requirementMessage<"part.met/each">(count, needed);
     else if (isMet)
-        out.reason = requirementMessage<"part.met/all">(count).text;
+        out.reason = requirementMessage<"part.met/all">(count);
     else if (found == 0)
-        out.reason = requirementMessage<"part.unmet/none">().text;
+        out.reason = requirementMessage<"part.unmet/none">();
     else
-        out.reason = requirementMessage<"part.unmet/some">(count, needed).text;
+        out.reason = requirementMessage<"part.unmet/some">(count, needed);
     return out;
 }
 

@@ -17,10 +17,10 @@ inline constexpr EnumWords<Met, Met::yes> kMetWords{"not met", "partly met", "me
 
 /// An object, light or file that matches a requirement, or nearly does.
 struct RequiredThing {
-    std::string who;      ///< "\"Earth\"", "model 4 (sphere)"
+    Message who;          ///< "\"Earth\"", "model 4 (sphere)"
     Location where;       ///< its lines in the document, or a vertex's in its file
     std::string excerpt;  ///< the lines there
-    std::string reason;   ///< why it does not match; empty: it does
+    Message reason;       ///< why it does not match; empty: it does
 };
 
 /// One requirement as it was found.
@@ -29,7 +29,7 @@ struct RequirementGrade {
     double points = 0, most = 0;
     Met met = Met::no;
     int found = 0, needed = 0;
-    std::string reason;                  ///< "7 of 8 found"
+    Message reason;                      ///< "7 of 8 found"
     std::vector<RequiredThing> matches;  ///< the first kShownThings
     std::vector<RequiredThing> misses;   ///< likewise; none where the requirement is met
 };

@@ -142,19 +142,17 @@ scene::Material Inventory::materialOf(std::size_t object) const {
     return objects_[object].model->material.value_or(scene::defaultMaterial(scene().dialect));
 }
 
-std::string Inventory::nameOf(std::size_t object) const {
+Message Inventory::nameOf(std::size_t object) const {
     const Object& one = objects_[object];
     for (const std::string* name : {&one.model->name, &one.model->id})
-        if (!name->empty()) return quoted(*name);
+        if (!name->empty()) return requirementMessage<"part.object/name">("name"_arg = *name);
     for (int at = one.node; at >= 0; at = nodes_[static_cast<std::size_t>(at)].parent)
         if (const std::string& name = nodes_[static_cast<std::size_t>(at)].group->name;
             !name.empty())
             return requirementMessage<"part.object/group">(
-                       "group"_arg = name, "number"_arg = one.number, "shape"_arg = shapeOf(object))
-                .text;
+                "group"_arg = name, "number"_arg = one.number, "shape"_arg = shapeOf(object));
     return requirementMessage<"part.object/number">("number"_arg = one.number,
-                                                    "shape"_arg = shapeOf(object))
-        .text;
+                                                    "shape"_arg = shapeOf(object));
 }
 
 }  // namespace farol::grade

@@ -65,8 +65,8 @@ class Inventory {
     const std::string& imageOf(std::size_t object) const;
     /// Returns the object's own material, or the dialect's.
     scene::Material materialOf(std::size_t object) const;
-    /// Names the object as its author does: "\"Earth\"" or "model 3, a sphere".
-    std::string nameOf(std::size_t object) const;
+    /// Names the object as its author does: "\"Earth\"" or "model 3 (sphere)".
+    Message nameOf(std::size_t object) const;
 
   private:
     void visit(const scene::Group& group, int parent, render::MeshLibrary& meshes);

@@ -8,12 +8,12 @@
 namespace farol::grade {
 namespace {
 
-/// The reason why the light is too far away at some time, or "".
-std::string farFrom(const LightSelector& selector, ObjectSelector& objects,
-                    const Inventory::Light& light) {
+/// The reason why the light is too far away at some time, or an empty message.
+Message farFrom(const LightSelector& selector, ObjectSelector& objects,
+                const Inventory::Light& light) {
     const std::vector<std::size_t>& targets = objects.objectsOf(selector.near);
     if (targets.empty())
-        return requirementMessage<"part.miss/light-near-none">("id"_arg = selector.near).text;
+        return requirementMessage<"part.miss/light-near-none">("id"_arg = selector.near);
     const Inventory& inventory = objects.scene().inventory;
     for (const double timeS : objects.scene().seen.timesS()) {
         const glm::dvec3 at(inventory.matrix(light.node, -1, timeS) *
@@ -31,15 +31,14 @@ std::string farFrom(const LightSelector& selector, ObjectSelector& objects,
         if (!isNear)
             return requirementMessage<"part.miss/light-near">("distance"_arg = shortNumber(least),
                                                               "id"_arg = selector.near,
-                                                              "most"_arg = shortNumber(allowed))
-                .text;
+                                                              "most"_arg = shortNumber(allowed));
     }
-    return "";
+    return {};
 }
 
-/// The reason why the light does not light enough of the objects, or "".
-std::string unlit(const LightSelector& selector, ObjectSelector& objects,
-                  const Inventory::Light& light) {
+/// The reason why the light does not light enough of the objects, or an empty message.
+Message unlit(const LightSelector& selector, ObjectSelector& objects,
+              const Inventory::Light& light) {
     std::size_t visible = 0, lit = 0;
     for (const std::size_t target : objects.objectsOf(selector.lights)) {
         const std::optional<bool> isLit = objects.scene().seen.isLitBy(target, light.ordinal);
@@ -47,28 +46,26 @@ std::string unlit(const LightSelector& selector, ObjectSelector& objects,
         lit += isLit && *isLit ? 1 : 0;
     }
     if (visible == 0)
-        return requirementMessage<"part.miss/light-unseen">("id"_arg = selector.lights).text;
-    if (2 * lit >= visible) return "";
+        return requirementMessage<"part.miss/light-unseen">("id"_arg = selector.lights);
+    if (2 * lit >= visible) return {};
     return requirementMessage<"part.miss/light-lights">("count"_arg = lit, "visible"_arg = visible,
-                                                        "id"_arg = selector.lights)
-        .text;
+                                                        "id"_arg = selector.lights);
 }
 
-std::string reasonOf(const LightSelector& selector, ObjectSelector& objects,
-                     const Inventory::Light& light) {
+Message reasonOf(const LightSelector& selector, ObjectSelector& objects,
+                 const Inventory::Light& light) {
     if (selector.type && light.light->type != *selector.type)
         return requirementMessage<"part.miss/light-type">(
-                   "found"_arg = scene::kLightTypeWords[light.light->type],
-                   "expected"_arg = scene::kLightTypeWords[*selector.type])
-            .text;
+            "found"_arg = scene::kLightTypeWords[light.light->type],
+            "expected"_arg = scene::kLightTypeWords[*selector.type]);
     if (!selector.near.empty()) {
         if (light.light->type == scene::LightType::directional)
-            return requirementMessage<"part.miss/light-type">("found"_arg = "directional",
-                                                              "expected"_arg = "point or spot")
-                .text;
-        if (std::string reason = farFrom(selector, objects, light); !reason.empty()) return reason;
+            return requirementMessage<"part.miss/light-type">(
+                "found"_arg = "directional", "expected"_arg = requirementMessage<"part.choice/or">(
+                                                 "list"_arg = "point", "last"_arg = "spot"));
+        if (Message reason = farFrom(selector, objects, light); !reason.empty()) return reason;
     }
-    return selector.lights.empty() ? "" : unlit(selector, objects, light);
+    return selector.lights.empty() ? Message{} : unlit(selector, objects, light);
 }
 
 }  // namespace
@@ -78,8 +75,7 @@ std::vector<FoundLight> findLights(const LightSelector& selector, ObjectSelector
     for (const Inventory::Light& light : objects.scene().inventory.lights())
         out.push_back({requirementMessage<"part.light/number">(
                            "number"_arg = light.ordinal + 1,
-                           "type"_arg = scene::kLightTypeWords[light.light->type])
-                           .text,
+                           "type"_arg = scene::kLightTypeWords[light.light->type]),
                        light.light->where, reasonOf(selector, objects, light)});
     return out;
 }

@@ -9,9 +9,9 @@ namespace farol::grade {
 
 /// A light as a requirement sees it; `reason` says why it does not match, or is empty.
 struct FoundLight {
-    std::string who;
+    Message who;
     Location where;
-    std::string reason;
+    Message reason;
 };
 
 /// Returns the scene's lights, each copy, in document order.

@@ -32,14 +32,14 @@ int countFiles(const MeshSelector& selector, const scene::Assets& files,
             isRight = false;
             if (++shown > kMaxOfFile || misses.size() >= kMaxMisses) continue;
             RequiredThing& miss = misses.emplace_back();
-            miss.who = quoted(path);
+            miss.who = requirementMessage<"part.object/name">("name"_arg = uncut(path));
             miss.where = finding.where;
-            miss.reason = requirementMessage<"part.miss/mesh">("problem"_arg = finding).text;
+            miss.reason = requirementMessage<"part.miss/mesh">("problem"_arg = finding);
         }
         found += isRight ? 1 : 0;
         if (!isRight || matches.size() >= kShownThings) continue;
         RequiredThing& match = matches.emplace_back();
-        match.who = quoted(path);
+        match.who = requirementMessage<"part.object/name">("name"_arg = uncut(path));
         match.where.file = path;
     }
     return found;

@@ -6,11 +6,14 @@ namespace farol::grade {
 
 /// Texts about requirements: why an object does not match, how many do.
 inline constexpr MessageRow kRequirementMessages[] = {
+    {"part.choice/one", "{item}", {"sphere"}},
+    {"part.choice/or", "{list} or {last}", {"sphere", "box"}},
     {"part.light/number", "light {number} ({type})", {"1", "point"}},
     {"part.manual/open", "open: a person marks it"},
     {"part.met/all", "{count} found", {"8"}},
     {"part.met/each", "{count} of {needed} match", {"8", "8"}},
     {"part.object/group", "group \"{group}\" (model {number}, {shape})", {"Earth", "4", "sphere"}},
+    {"part.object/name", "\"{name}\"", {"Earth"}},
     {"part.object/number", "model {number} ({shape})", {"4", "sphere"}},
     {"part.miss/above", "no object of \"{id}\" hangs from its group", {"moons"}},
     {"part.miss/below", "hangs from the group of no object of \"{id}\"", {"planets"}},
@@ -26,7 +29,8 @@ inline constexpr MessageRow kRequirementMessages[] = {
     {"part.miss/depth", "stands in {depth} groups; expected {least} to {most}", {"1", "3", "64"}},
     {"part.miss/emissive", "does not shine by itself; give it an emissive colour"},
     {"part.miss/emissive-not", "shines by itself; its emissive colour is not 0"},
-    {"part.miss/equal", "has the same {what} as {who}", {"image", "model 2 (sphere)"}},
+    {"part.miss/equal-image", "has the same image as {who}", {"model 2 (sphere)"}},
+    {"part.miss/equal-mesh", "has the same mesh as {who}", {"model 2 (sphere)"}},
     {"part.miss/light-lights",
      "{count} of the {visible} visible objects of \"{id}\" change without it; expected half or "
      "more",
@@ -46,6 +50,7 @@ inline constexpr MessageRow kRequirementMessages[] = {
     {"part.miss/moves-not", "moves with the time"},
     {"part.miss/name", "has no name like \"{pattern}\"", {"comet*"}},
     {"part.miss/not", "is one of \"{id}\"", {"moons"}},
+    {"part.miss/of", "{who} {reason}", {"model 4 (sphere)", "stands still"}},
     {"part.miss/order",
      "is out of order: its {rising} is {value}, after {before}",
      {"period", "8", "12"}},

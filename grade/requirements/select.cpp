@@ -24,14 +24,23 @@ double brightness(const scene::Color& color) {
     return color.cycles ? 1.0 / 3.0 : (color.rgb.r + color.rgb.g + color.rgb.b) / 3.0;
 }
 
+/// "sphere", "sphere, torus or box".
+Message choiceOf(std::vector<std::string> words) {
+    const std::string last = words.back();
+    words.pop_back();
+    if (words.empty()) return requirementMessage<"part.choice/one">("item"_arg = last);
+    return requirementMessage<"part.choice/or">("list"_arg = uncut(joined(words, ", ")),
+                                                "last"_arg = last);
+}
+
 Found checkShape(ObjectSelector& of, const Selector& select, std::size_t object) {
     if (select.shapes.empty()) return {};
     const std::string& shape = of.scene().inventory.shapeOf(object);
     if (std::find(select.shapes.begin(), select.shapes.end(), shape) != select.shapes.end())
         return {};
     return faultOf(of, object,
-                   requirementMessage<"part.miss/shape">(
-                       "found"_arg = shape, "expected"_arg = joined(select.shapes, " or ")));
+                   requirementMessage<"part.miss/shape">("found"_arg = shape,
+                                                         "expected"_arg = choiceOf(select.shapes)));
 }
 
 Found checkName(ObjectSelector& of, const Selector& select, std::size_t object) {
@@ -185,7 +194,7 @@ Found checkBuried(ObjectSelector& of, const Selector& select, std::size_t object
     if (around.has_value() == *select.isBuried) return {};
     return faultOf(of, object,
                    around ? requirementMessage<"part.miss/buried">(
-                                "who"_arg = uncut(of.scene().inventory.nameOf(*around)))
+                                "who"_arg = of.scene().inventory.nameOf(*around))
                           : requirementMessage<"part.miss/buried-not">());
 }
 

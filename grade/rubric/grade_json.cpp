@@ -44,7 +44,7 @@ ordered_json causesOf(const Grade& grade, Language language) {
     for (const GradedCause& one : grade.causes) {
         ordered_json entry{{"code", one.code},
                            {"criterion", kTopicWords[kindOf(one.code).topic]},
-                           {"message", textIn(language, one.message)},
+                           {"message", textIn(language, one)},
                            {"points", twoDigits(one.points)},
                            {"seen", one.isSeen},
                            {"spoils", sixDigits(one.spoiled)}};
@@ -63,22 +63,22 @@ ordered_json causesOf(const Grade& grade, Language language) {
     return out;
 }
 
-ordered_json thingOf(const RequiredThing& thing) {
-    ordered_json out{{"who", thing.who}};
-    if (!thing.reason.empty()) out["message"] = thing.reason;
+ordered_json thingOf(const RequiredThing& thing, Language language) {
+    ordered_json out{{"who", textIn(language, thing.who)}};
+    if (!thing.reason.empty()) out["message"] = textIn(language, thing.reason);
     out.update(placeOf(thing.where));
     if (!thing.excerpt.empty()) out["excerpt"] = thing.excerpt;
     return out;
 }
 
-ordered_json thingsOf(const std::vector<RequiredThing>& things) {
+ordered_json thingsOf(const std::vector<RequiredThing>& things, Language language) {
     ordered_json out = ordered_json::array();
-    for (const RequiredThing& thing : things) out.push_back(thingOf(thing));
+    for (const RequiredThing& thing : things) out.push_back(thingOf(thing, language));
     return out;
 }
 
 /// Requirements and marks by hand stand among the criteria, with their kind.
-void addRequirements(const Grade& grade, ordered_json& criteria) {
+void addRequirements(const Grade& grade, ordered_json& criteria, Language language) {
     for (const RequirementGrade& one : grade.requirements)
         criteria.push_back({{"measure", one.id},
                             {"kind", "requirement"},
@@ -86,43 +86,46 @@ void addRequirements(const Grade& grade, ordered_json& criteria) {
                             {"state", kMetWords[one.met]},
                             {"points", twoDigits(one.points)},
                             {"most", twoDigits(one.most)},
-                            {"reason", one.reason},
+                            {"reason", textIn(language, one.reason)},
                             {"found", one.found},
                             {"needed", one.needed},
-                            {"matches", thingsOf(one.matches)},
-                            {"misses", thingsOf(one.misses)}});
+                            {"matches", thingsOf(one.matches, language)},
+                            {"misses", thingsOf(one.misses, language)}});
     for (const ManualCriterion& one : grade.manual)
-        criteria.push_back({{"measure", one.id},
-                            {"kind", "manual"},
-                            {"text", one.text},
-                            {"state", "open"},
-                            {"points", 0.0},
-                            {"most", twoDigits(one.points)},
-                            {"reason", requirementMessage<"part.manual/open">().text}});
+        criteria.push_back(
+            {{"measure", one.id},
+             {"kind", "manual"},
+             {"text", one.text},
+             {"state", "open"},
+             {"points", 0.0},
+             {"most", twoDigits(one.points)},
+             {"reason", textIn(language, requirementMessage<"part.manual/open">())}});
 }
 
 /// What is not met is a finding, too, so that every report shows it with its lines.
-void addUnmet(const Grade& grade, ordered_json& findings) {
+void addUnmet(const Grade& grade, ordered_json& findings, Language language) {
     for (const RequirementGrade& one : grade.requirements) {
         if (one.met == Met::yes) continue;
-        const std::string first =
-            one.misses.empty() ? "" : one.misses.front().who + " " + one.misses.front().reason;
+        const Message first = one.misses.empty() ? Message{}
+                                                 : requirementMessage<"part.miss/of">(
+                                                       "who"_arg = one.misses.front().who,
+                                                       "reason"_arg = one.misses.front().reason);
         const auto text = "text"_arg = uncut(one.text);
         const auto reason = "reason"_arg = one.reason;
-        const auto miss = "miss"_arg = uncut(first);
+        const auto miss = "miss"_arg = first;
         const Message message = one.met == Met::partly
                                     ? requirementMessage<"requirement.partly">(text, reason, miss)
                                     : requirementMessage<"requirement.unmet">(text, reason, miss);
         ordered_json entry{{"code", message.code()},
                            {"criterion", one.id},
-                           {"message", message.text},
+                           {"message", textIn(language, message)},
                            {"points", twoDigits(one.most - one.points)},
                            {"seen", true},
                            {"spoils", 0.0}};
         if (!one.misses.empty()) entry.update(placeOf(one.misses.front().where));
         if (!one.misses.empty() && !one.misses.front().excerpt.empty())
             entry["excerpt"] = one.misses.front().excerpt;
-        entry["places"] = thingsOf(one.misses);
+        entry["places"] = thingsOf(one.misses, language);
         findings.push_back(std::move(entry));
     }
 }
@@ -173,9 +176,9 @@ std::string toJson(const Grade& grade, Language language) {
         entry["reason"] = sentenceIn(language, one.reason);
         out["criteria"].push_back(std::move(entry));
     }
-    addRequirements(grade, out["criteria"]);
+    addRequirements(grade, out["criteria"], language);
     out["findings"] = causesOf(grade, language);
-    addUnmet(grade, out["findings"]);
+    addUnmet(grade, out["findings"], language);
     out["diagnostics"] = ordered_json::array();
     for (std::size_t i = 0; i < grade.diagnostics.size(); ++i) {
         const Diagnostic& one = grade.diagnostics[i];

@@ -310,8 +310,10 @@ struct Grader::State {
         }
         if (pair.hasSameColors()) return view;
         view.picture = image::encodeJpeg(mine, kJpegQuality);
-        if (view.measured.at(&mainMetric()).loss > 0.0)
+        if (view.measured.at(&mainMetric()).loss > 0.0) {
             view.heat = image::encodeJpeg(heatMap(pair.beyond()), kJpegQuality);
+            view.mask = coarseMask(pair.beyond());
+        }
         return view;
     }
 

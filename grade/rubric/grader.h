@@ -42,6 +42,9 @@ struct GradedCause {
     bool isSeen = true;
 };
 
+/// The cause as a sentence in a language, with its places.
+std::string textIn(Language language, const GradedCause& cause);
+
 /// One view of both, at one time.
 struct ViewGrade {
     std::string name;
@@ -50,6 +53,7 @@ struct ViewGrade {
     std::map<const MetricSpec*, Measurement> measured;  ///< of those that were computed
     std::optional<std::string> picture;  ///< JPEG of the submission, unless it is the reference's
     std::optional<std::string> heat;     ///< JPEG of the difference, where there is one
+    std::string mask;                    ///< coarseMask() of the difference; empty: none
 };
 
 /// Wall time of the stages, ms: reports leave it out, so that they stay the same.

@@ -94,8 +94,20 @@ double penaltyOf(const Grade& grade, const Rubric& rubric) {
     return std::min(sum, rubric.mostPenalty);
 }
 
+constexpr std::size_t kListedPlaces = 6;
+
 std::string lineText(const Location& where) {
     return where.line > 0 ? std::to_string(where.line) : "";
+}
+
+/// The first places in a language, with their lines.
+std::string listedPlaces(const std::vector<CausePlace>& places, Language language) {
+    std::vector<std::string> texts;
+    for (std::size_t i = 0; i < std::min(kListedPlaces, places.size()); ++i)
+        texts.push_back(
+            textIn(language, message<"part.cause/place">("who"_arg = places[i].who,
+                                                         "line"_arg = lineText(places[i].where))));
+    return joined(texts, ", ");
 }
 
 /// "group "door": the angle has the wrong sign (line 65)"; of several places once, with all.
@@ -111,17 +123,13 @@ Message sentenceOf(const Cause& cause, Reveal reveal) {
                    : message<"part.cause/of">("who"_arg = first.who, "finding"_arg = finding,
                                               "values"_arg = values,
                                               "line"_arg = lineText(first.where));
-    constexpr std::size_t kListed = 6;
-    std::vector<std::string> places;
-    for (std::size_t i = 0; i < std::min(kListed, cause.fixes.size()); ++i)
-        places.push_back(message<"part.cause/place">("who"_arg = cause.fixes[i].who,
-                                                     "line"_arg = lineText(cause.fixes[i].where))
-                             .text);
     const std::size_t count = cause.fixes.size();
+    std::vector<CausePlace> places;
+    for (const Fix& fix : cause.fixes) places.push_back({fix.who, fix.where, ""});
     return message<"part.cause/places">(
         "count"_arg = count, "finding"_arg = finding, "values"_arg = values,
-        "places"_arg = uncut(joined(places, ", ")),
-        "more"_arg = count > kListed ? std::to_string(count - kListed) : std::string());
+        "places"_arg = uncut(listedPlaces(places, Language::en)),
+        "more"_arg = count > kListedPlaces ? std::to_string(count - kListedPlaces) : std::string());
 }
 
 /// The criteria of the work, as a rubric weighs them.
@@ -247,6 +255,14 @@ class WorkScore {
 };
 
 }  // namespace
+
+std::string textIn(Language language, const GradedCause& cause) {
+    Message message = cause.message;
+    for (MessageArgument& argument : message.arguments)
+        if (argument.name == "places" || argument.name == "cause.places")  // part.cause/unclosed
+            argument.text = listedPlaces(cause.places, language);
+    return textIn(language, message);
+}
 
 std::vector<Criterion> pictureCriteria(const Rubric& rubric) {
     std::vector<Criterion> out;

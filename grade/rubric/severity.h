@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "core/enum_words.h"
+#include "core/language.h"
 
 namespace farol::grade {
 
@@ -19,8 +20,10 @@ struct Kind {
     std::string_view code;
     Topic topic;
     double least, most;
-    std::string_view about;  ///< for docs/grading.md
 };
+
+/// Returns the description of a kind of mistake; the code itself if it has none.
+std::string aboutKind(const std::string& code, Language language = Language::en);
 
 /// The table of all kinds, by topic. It was written before any submission was marked by it: a slip
 /// that one look at the picture finds costs less than a misunderstanding of how transforms compose;

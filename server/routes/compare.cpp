@@ -5,6 +5,7 @@
 #include "core/base64.h"
 #include "core/text.h"
 #include "server/messages.h"
+#include "server/request/media.h"
 #include "server/request/parameters.h"
 #include "server/request/upload.h"
 #include "server/routes/answers.h"
@@ -66,9 +67,11 @@ worker::MeshCheckTask::Request readMeshes(std::vector<Part> parts, const std::st
 }
 
 http::Response compareMeshes(Context& context, const Call& call, const std::string& shape) {
-    const auto done = context.backend.run<worker::MeshCheckTask>(
-        readMeshes(readParts(call.request, call.body, context.options.maxBodyBytes), shape));
-    return freshJson(parseJson(done.result, worker::kMeshCheckJson));
+    worker::MeshCheckTask::Request job =
+        readMeshes(readParts(call.request, call.body, context.options.maxBodyBytes), shape);
+    job.language = languageOf(call.request);
+    const auto done = context.backend.run<worker::MeshCheckTask>(job);
+    return freshJson(parseJson(done.result, worker::kMeshCheckJson), job.language);
 }
 
 }  // namespace

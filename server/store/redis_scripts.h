@@ -7,6 +7,9 @@
 /// digest.
 namespace farol::server::store::redis {
 
+/// Of all keys, with a hash tag: in a cluster, one node has all keys, as the scripts need.
+inline constexpr const char* kPrefix = "{farol}";
+
 inline constexpr const char* kCommon = R"(
 local function at(name) return KEYS[1] .. ':' .. name end
 local clock = redis.call('TIME')
@@ -112,6 +115,94 @@ return all
 
 /// -> how many are gone; at most a thousand at once
 inline constexpr const char* kExpire = "return expire()";
+
+/// Records (record_store.h): in :record:TABLE/KEY its bytes; in :keys:TABLE the keys of a table; in
+/// :recordsizes the bytes and in :recordexpiry the ends (ms), both by TABLE/KEY; :recordtotal is
+/// the sum of the sizes; in :try:TABLE/KEY a list of the times of tries (ms).
+inline constexpr const char* kRecords = R"(
+local function dropRecord(name)
+  local had = redis.call('DEL', at('record:' .. name), at('try:' .. name))
+  local size = redis.call('HGET', at('recordsizes'), name)
+  if size then
+    redis.call('DECRBY', at('recordtotal'), size)
+    redis.call('HDEL', at('recordsizes'), name)
+  end
+  redis.call('ZREM', at('recordexpiry'), name)
+  local slash = string.find(name, '/', 1, true)
+  redis.call('SREM', at('keys:' .. string.sub(name, 1, slash - 1)), string.sub(name, slash + 1))
+  return had > 0 and 1 or 0
+end
+local function keepUntil(name, ends)
+  if ends > 0 then
+    redis.call('ZADD', at('recordexpiry'), ends, name)
+  else
+    redis.call('ZREM', at('recordexpiry'), name)
+  end
+  local slash = string.find(name, '/', 1, true)
+  redis.call('SADD', at('keys:' .. string.sub(name, 1, slash - 1)), string.sub(name, slash + 1))
+end
+)";
+
+/// NAME BYTES ENDS_MS MOST_BYTES -> 1, or 0 where there is no room
+inline constexpr const char* kPutRecord = R"(
+local name, bytes = ARGV[1], ARGV[2]
+local before = tonumber(redis.call('HGET', at('recordsizes'), name) or 0)
+local total = tonumber(redis.call('GET', at('recordtotal')) or 0)
+if total - before + #bytes > tonumber(ARGV[4]) then return 0 end
+redis.call('SET', at('record:' .. name), bytes)
+redis.call('INCRBY', at('recordtotal'), #bytes - before)
+redis.call('HSET', at('recordsizes'), name, #bytes)
+keepUntil(name, tonumber(ARGV[3]))
+return 1
+)";
+
+/// NAME -> the bytes, or nil
+inline constexpr const char* kGetRecord = R"(
+local ends = tonumber(redis.call('ZSCORE', at('recordexpiry'), ARGV[1]) or 0)
+if ends > 0 and ends <= now then return false end
+return redis.call('GET', at('record:' .. ARGV[1]))
+)";
+
+/// NAME -> 1, or 0 where there was none
+inline constexpr const char* kRemoveRecord = "return dropRecord(ARGV[1])";
+
+/// TABLE -> its keys
+inline constexpr const char* kRecordKeys = "return redis.call('SMEMBERS', at('keys:' .. ARGV[1]))";
+
+/// -> how many are gone; at most a thousand at once
+inline constexpr const char* kExpireRecords = R"(
+local ended = redis.call('ZRANGEBYSCORE', at('recordexpiry'), '-inf', now, 'LIMIT', 0, 1000)
+for _, name in ipairs(ended) do dropRecord(name) end
+return #ended
+)";
+
+/// NAME TOKEN PER_HOUR ALL ENDS_MS -> {granted, left, next in ms or 0}: takeTry() with Redis's
+/// clock. A TOKEN that was counted is not counted again: the command may be sent twice.
+inline constexpr const char* kTake = R"(
+local name, token = ARGV[1], ARGV[2]
+local perHour, all = tonumber(ARGV[3]), tonumber(ARGV[4])
+local key = at('try:' .. name)
+local tries = redis.call('LRANGE', key, 0, -1)
+local count = #tries
+local function timeOf(entry) return tonumber(string.match(entry, '^%d+')) end
+local function upcoming()
+  if count < perHour then return now end
+  return math.max(now, timeOf(tries[count - perHour + 1]) + 3600000)
+end
+local granted = 0
+if count > 0 and string.match(tries[count], '%s(.*)$') == token then
+  granted = 1
+elseif count < all and upcoming() <= now then
+  local entry = string.format('%.0f %s', now, token)
+  redis.call('RPUSH', key, entry)
+  keepUntil(name, tonumber(ARGV[5]))
+  count = count + 1
+  tries[count] = entry
+  granted = 1
+end
+local left = math.max(0, all - count)
+return {granted, left, left > 0 and upcoming() or 0}
+)";
 
 inline constexpr const char* kBytes = "return tonumber(redis.call('GET', at('total')) or 0)";
 

@@ -14,28 +14,18 @@ constexpr int kRetryAfterOutageS = 5;  // time of a restart of Redis
 constexpr int kRetryAfterChangeS = 1;
 constexpr const char* kAsideS = "604800";  // damaged files are kept for a week
 constexpr int kRetryAfterFullS = 60;       // until scenes expire or are removed
-// Hash tag: in a cluster, one node has all keys, as the scripts need.
-constexpr const char* kPrefix = "{farol}";
-constexpr int kMaxRounds = 1'000;  // of expiring, each of at most a thousand scenes
+constexpr int kMaxRounds = 1'000;          // of expiring, each of at most a thousand scenes
 
 Time timeOfMs(std::int64_t ms) {
     return ms == 0 ? Time::max() : Time(std::chrono::milliseconds(ms));
 }
 
-std::string keyOf(const std::string& id) { return std::string(kPrefix) + ":scene:" + id; }
+std::string keyOf(const std::string& id) { return std::string(redis::kPrefix) + ":scene:" + id; }
 
 /// {listed, expires in ms or 0, bytes}
 Entry entryOf(const std::string& id, const std::vector<RedisReply>& parts, std::size_t from = 0) {
     return {id, parts.at(from).number == 1, timeOfMs(parts.at(from + 1).number),
             static_cast<std::uint64_t>(parts.at(from + 2).number)};
-}
-
-worker::Busy unreachable() { return {message<"store.unreachable">(), kRetryAfterOutageS}; }
-
-worker::Busy refused(const RedisRefusal& why) {
-    if (std::string_view(why.what()).starts_with("OOM"))
-        return {message<"store.full">(), kRetryAfterFullS};
-    return {message<"store.failed">(), kRetryAfterFullS};
 }
 
 /// Returns the value of "name:" in a reply to INFO.
@@ -47,6 +37,14 @@ std::string infoOf(const std::string& info, const std::string& name) {
 }
 
 }  // namespace
+
+worker::Busy busyUnreachable() { return {message<"store.unreachable">(), kRetryAfterOutageS}; }
+
+worker::Busy busyRefused(const RedisRefusal& why) {
+    if (std::string_view(why.what()).starts_with("OOM"))
+        return {message<"store.full">(), kRetryAfterFullS};
+    return {message<"store.failed">(), kRetryAfterFullS};
+}
 
 RedisStore::RedisStore(RedisAddress address, StoreLimits limits, Log log,
                        std::chrono::microseconds usePause)
@@ -81,7 +79,7 @@ void RedisStore::inspectServer() {
 
 RedisReply RedisStore::run(const char* script, const std::vector<std::string>& arguments) const {
     const std::string text = std::string(redis::kCommon) + script;
-    std::vector<std::string_view> words = {"EVAL", text, "1", kPrefix};
+    std::vector<std::string_view> words = {"EVAL", text, "1", redis::kPrefix};
     words.insert(words.end(), arguments.begin(), arguments.end());
     return link_.ask(words);
 }
@@ -91,10 +89,10 @@ RedisReply RedisStore::required(const char* script,
     try {
         return run(script, arguments);
     } catch (const RedisAway&) {
-        throw unreachable();
+        throw busyUnreachable();
     } catch (const RedisRefusal& why) {
         log_(std::string("Redis refuses: ") + why.what());
-        throw refused(why);
+        throw busyRefused(why);
     }
 }
 
@@ -140,10 +138,10 @@ std::optional<Stored> RedisStore::get(const std::string& id) {
     } catch (const RedisAway&) {
         // A scene is its content's digest: this copy is right, even if it was deleted elsewhere.
         if (scene.bundle && scene.entry.expires > now()) return scene;
-        throw unreachable();
+        throw busyUnreachable();
     } catch (const RedisRefusal& why) {
         log_(std::string("Redis refuses: ") + why.what());
-        throw refused(why);
+        throw busyRefused(why);
     }
     const std::lock_guard lock(mutex_);
     if (Stored* kept = cache_.find(id))

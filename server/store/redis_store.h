@@ -7,8 +7,13 @@
 #include "core/lru_cache.h"
 #include "server/store/redis_link.h"
 #include "server/store/scene_store.h"
+#include "worker/backend.h"
 
 namespace farol::server::store {
+
+/// The refusals of requests while Redis is unreachable, and where it refuses a command.
+worker::Busy busyUnreachable();
+worker::Busy busyRefused(const RedisRefusal& why);
 
 /// Scenes in a Redis that many services share: a scene acknowledged by one is visible to all.
 /// Every change is one script: it is atomic, and Redis's clock applies to all replicas.

@@ -37,16 +37,25 @@ formats(ajv);
 ajv.addSchema(document, 'api');
 const follow = (one) => (one?.$ref ? one.$ref.slice(2).split('/').reduce((at, key) => at[key], document) : one);
 
-const daemon = spawn(program, ['serve', '--port', '0', '--workers', '1', '--scenes', path.join(source, 'scenes')],
-                     { stdio: ['ignore', 'pipe', 'ignore'] });
-const base = await new Promise((resolve, reject) => {
-    daemon.on('exit', () => reject(new Error('the service ended')));
-    readline.createInterface(daemon.stdout).once('line', (line) => resolve(line.replace('listening on ', '')));
-});
+/** Starts a service; returns it with its address. */
+async function start(...flags) {
+    const daemon = spawn(program, ['serve', '--port', '0', '--workers', '1', '--scenes', path.join(source, 'scenes'), ...flags],
+                         { stdio: ['ignore', 'pipe', 'ignore'] });
+    const base = await new Promise((resolve, reject) => {
+        daemon.on('exit', () => reject(new Error('the service ended')));
+        readline.createInterface(daemon.stdout).once('line', (line) => resolve(line.replace('listening on ', '')));
+    });
+    return { daemon, base };
+}
+// The examples of api/examples store scenes without a token.
+const open = await start();
+const { daemon, base } = await start('--token', 'walk', '--check-time', '0.05');
+
+const teacher = { Authorization: 'Bearer walk' };
 
 /** Sends, and checks status, media type and schema of the answer against the operation. */
 async function ask(operation, method, target, options = {}) {
-    const answer = await fetch(base + target, { method: method.toUpperCase(), ...options });
+    const answer = await fetch(base + target, { method: method.toUpperCase(), ...options, headers: { ...teacher, ...options.headers } });
     const label = `${method} ${target}: ${answer.status}`;
     const said = follow(operation.responses[answer.status]);
     check(said !== undefined, `${label} is documented`);
@@ -72,14 +81,31 @@ const pair = new FormData();
 pair.append('first', new Blob([xml]), 'scene.xml');
 pair.append('second', new Blob([xml]), 'scene.xml');
 const compared = { method: 'POST', body: pair };
-const upload = await (await fetch(`${base}/v1/scenes`, sample)).json();
+const upload = await (await fetch(`${base}/v1/scenes`, { ...sample, headers: { ...teacher, ...sample.headers } })).json();
+
+// An assignment whose right submission is what is submitted, with a student's code.
+const assignment = new FormData();
+assignment.append('assignment', new Blob([JSON.stringify({ title: 'Box', tries: 1000, triesPerHour: 1000, mask: true, retentionDays: 1,
+                                                           shows: ['requirements', 'document', 'models', 'transforms'] })]));
+assignment.append('reference', new Blob([xml]), 'reference.xml');
+const assigned = { body: assignment };
+const students = { headers: { 'Content-Type': 'application/json' }, body: JSON.stringify({ students: ['ana'] }) };
+await fetch(`${base}/v1/assignments/box`, { method: 'PUT', headers: teacher, ...assigned });
+const { codes } = await (await fetch(`${base}/v1/assignments/box/codes`, { method: 'POST', ...students, headers: { ...teacher, ...students.headers } })).json();
+const mine = new FormData();
+mine.append('submission', new Blob([xml.replace('box_1_2', 'box_1_3')]), 'mine.xml');
+const checked = { body: mine, headers: { Authorization: `Bearer ${codes[0].code}` } };
+await fetch(`${base}/v1/assignments/box/check`, { method: 'POST', ...checked });
+
+/** Requests that are answered well, of the routes that take no scene alone. */
+const bodies = { '/v1/grade': graded, '/v1/compare': compared, '/v1/assignments/{id}/codes': students, '/v1/assignments/{id}/check': checked };
 
 // The page's files have names of their content; a build without npm has none.
 const asset = (await (await fetch(`${base}/`)).text()).match(/\/assets\/([\w.-]+)/)?.[1];
 
 /** A target that the operation answers with 200, 201 or 204. */
-const targetOf = (pattern) => pattern.replace('{id}', upload.id).replace('{shape}', 'cone').replace('{file}', asset ?? 'none');
-const fits = { args: '1,2,4,3', background: 'red', entity: 'scene.xml', eye: '3,2,5', target: '0,0,0', up: '0,1,0', q: 'box', crop: '4x4+0+0', mask: 'axes' };
+const targetOf = (pattern) => pattern.replace('{id}', pattern.includes('/assignments/') ? 'box' : upload.id).replace('{shape}', 'cone').replace('{file}', asset ?? 'none');
+const fits = { args: '1,2,4,3', background: 'red', entity: 'scene.xml', eye: '3,2,5', target: '0,0,0', up: '0,1,0', q: 'box', student: 'ana', crop: '4x4+0+0', mask: 'axes' };
 
 /** Values in the schema, and values beyond it. */
 function probesOf({ name, schema }) {
@@ -95,7 +121,7 @@ function probesOf({ name, schema }) {
 }
 
 async function walk(pattern, method, operation) {
-    const options = method !== 'post' ? {} : pattern === '/v1/grade' ? graded : pattern === '/v1/compare' ? compared : sample;
+    const options = method === 'put' ? assigned : method !== 'post' ? {} : (bodies[pattern] ?? sample);
     const target = targetOf(pattern);
     if (method === 'delete') return;  // below, when nothing else needs the scene
     const { answer } = await ask(operation, method, target + (pattern.includes('{shape}') ? '?args=1,2,4,3' : ''), options);
@@ -106,7 +132,7 @@ async function walk(pattern, method, operation) {
         const again = await ask(operation, method, target + (pattern.includes('{shape}') ? '?args=1,2,4,3' : ''), { headers: { 'If-None-Match': tag } });
         check(again.answer.status === 304, `${method} ${pattern} is 304 with its tag`);
     }
-    if (pattern.includes('{id}')) await ask(operation, method, pattern.replace('{id}', 'missing'));
+    if (pattern.includes('{id}')) await ask(operation, method, pattern.replace('{id}', 'missing'), method === 'put' ? assigned : {});
     if (method === 'post') {
         await ask(operation, method, target, { ...sample, headers: { 'Content-Type': 'text/plain' } });
         await ask(operation, method, target, { ...sample, body: '<world>' });
@@ -137,7 +163,7 @@ async function walk(pattern, method, operation) {
 function runExample(command, ...words) {
     if (spawnSync(command, ['--version']).error) return console.log(`SKIPPED: no ${command}, so its example`);
     const folder = path.join(output, `example-${path.basename(words[0])}`);
-    const done = spawnSync(command, [path.join(source, 'api/examples', words[0]), base, words[1], folder], { encoding: 'utf8' });
+    const done = spawnSync(command, [path.join(source, 'api/examples', words[0]), open.base, words[1], folder], { encoding: 'utf8' });
     check(done.status === 0, `${words[0]} ends well: ${done.stdout}${done.stderr}`);
     const pictures = existsSync(folder) ? readdirSync(folder).filter((name) => name.endsWith('.png')) : [];
     check(pictures.length === 4, `${words[0]} has four pictures`);
@@ -158,8 +184,10 @@ try {
     for (const [command, example] of [['sh', 'client.sh'], ['python3', 'client.py'], ['node', 'client.mjs']])
         runExample(command, example, bundle);
 } finally {
-    daemon.removeAllListeners('exit');
-    daemon.kill('SIGTERM');
+    for (const one of [daemon, open.daemon]) {
+        one.removeAllListeners('exit');
+        one.kill('SIGTERM');
+    }
 }
 console.log(`${checks} checks, ${failures} failed`);
 process.exit(failures === 0 && checks > 200 ? 0 : 1);

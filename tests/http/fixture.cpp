@@ -116,6 +116,7 @@ server::ServiceOptions TestServer::withStore(server::ServiceOptions options) {
     if (!options.store)
         options.store = std::make_shared<server::store::MemoryStore>(
             server::store::StoreLimits{kBytes, 10'000});
+    if (!options.records) options.records = std::make_shared<server::store::MemoryRecords>(kBytes);
     return options;
 }
 

@@ -2,6 +2,7 @@
 
 #include "fixture.h"
 #include "server/routes/subject.h"
+#include "worker/tasks/mesh_check.h"
 
 // POST /v1/grade: accepted and refused requests, before any worker sees them.
 using namespace farol;
@@ -85,4 +86,71 @@ TEST_CASE("a comparison takes two pictures or scenes, and nothing else") {
         CHECK(answer.status == one.status);
         CHECK(answer.code() == one.code);
     }
+}
+
+TEST_CASE("a mesh is compared with a shape or another mesh, and nothing else") {
+    FakeServer server;
+    std::string shape, expected, language;
+    server.backend.on<worker::MeshCheckTask>([&](const worker::MeshCheckTask::Request& request) {
+        shape = request.shape;
+        expected = request.expectedBytes;
+        language = kLanguageWords[request.language];
+        return std::string("{\"same\":true,\"findings\":[]}");
+    });
+    const FilePart first{"first", "a.3d", "3", ""}, second{"second", "b.3d", "4", ""};
+    struct Case {
+        std::string query;
+        std::vector<FilePart> parts;
+        int status;
+        const char* code;
+    };
+    const std::vector<Case> table = {
+        {"?shape=sphere%201%2010%2010", {first}, 200, ""},
+        {"?mesh=1", {first, second}, 200, ""},
+        {"?mesh=1", {first}, 400, "http.multipart"},
+        {"?shape=sphere%201%2010%2010", {first, second}, 400, "http.multipart"},
+        {"?mesh=1", {first, first}, 400, "http.multipart"},
+        {"?mesh=1", {first, {"second", "b.3d", "", ""}}, 400, "http.multipart"},
+        {"?mesh=2", {first, second}, 400, "option.range"},
+    };
+    for (const Case& one : table) {
+        INFO(one.query);
+        const Answer answer =
+            post(server.port(), "/v1/compare" + one.query, multipart(one.parts), kMultipartType);
+        CHECK(answer.status == one.status);
+        CHECK(answer.code() == one.code);
+        if (answer.status != 200) continue;
+        CHECK((shape == "sphere 1 10 10") != (expected == "4"));
+    }
+    const Answer czech =
+        ask(server.port(), {"POST",
+                            "/v1/compare?mesh=1",
+                            {{"Content-Type", kMultipartType}, {"Accept-Language", "cs"}},
+                            multipart({first, second})});
+    CHECK(language == "cs");
+    CHECK(czech.header("content-language") == "cs");
+}
+
+TEST_CASE("a rubric whose requirements have all points takes no reference") {
+    FakeServer server;
+    const FilePart submission{"submission", "s.xml", "<world/>", ""},
+        reference{"reference", "r.xml", "<world/>", ""};
+    const FilePart all{"rubric", "",
+                       R"({"requirements": [{"id": "a", "text": "t", "select": {}}]})", ""};
+    const FilePart some{
+        "rubric", "", R"({"points": 9, "requirements": [{"id": "a", "text": "t", "select": {}}]})",
+        ""};
+    const FilePart wrong{"rubric", "",
+                         R"({"requirements": [{"id": "a", "text": "t", "select": {}, "cout": 1}]})",
+                         ""};
+    const auto grade = [&](const std::vector<FilePart>& parts) {
+        return post(server.port(), "/v1/grade", multipart(parts), kMultipartType);
+    };
+    CHECK(grade({submission, all}).status == 200);
+    CHECK(grade({submission, all, reference}).code() == "grade.needless-reference");
+    CHECK(grade({submission, some}).code() == "grade.no-reference");
+    CHECK(grade({submission, some, reference}).status == 200);
+    const Answer refused = grade({submission, wrong});
+    CHECK(refused.status == 422);
+    CHECK(refused.json()["errors"][0]["field"] == "/requirements/0/cout");
 }

@@ -149,9 +149,10 @@ TEST_CASE("every route answers with statuses that the document lists") {
                  {"{id}", "box"}, {"{shape}", "cone"}, {"{file}", "plain.js"}})
             if (const std::size_t at = target.find(name); at != std::string::npos)
                 target.replace(at, name.size(), value);
+        // store_test.cpp and assignments_test.cpp have their tables.
+        if (key.second == "delete" || key.first.starts_with("/v1/assignments")) continue;
         if (key.first == "/v1/scenes/{id}/file") target += "?path=scene.xml";
         const std::string nonsense = target.find('?') == std::string::npos ? "?" : "&";
-        if (key.second == "delete") continue;  // store_test.cpp has its table
         const std::string method = key.second == "post" ? "POST" : "GET";
         std::string body = method == "POST" ? "<world/>" : "";
         std::vector<std::pair<std::string, std::string>> type, unacceptable;

@@ -72,7 +72,7 @@ export class Problem extends Error {
   }
 }
 
-async function problemOf(response: Response): Promise<Problem> {
+export async function problemOf(response: Response): Promise<Problem> {
   const retry = Number(response.headers.get('Retry-After') ?? Number.NaN);
   const retryAfterS = Number.isFinite(retry) ? retry : null;
   try {

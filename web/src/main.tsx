@@ -6,5 +6,6 @@ import './style/viewer.css';
 import './style/panel.css';
 import '../../grade/report/view.css';
 import './style/grade.css';
+import './style/assignment.css';
 
 render(<App />, document.getElementById('app') as HTMLElement);

@@ -1,6 +1,7 @@
 // The address after the #: what is on show, so that it can be shared.
 //   #/                 the gallery          #/scene/ID?az=..&el=..   a scene and how it is seen
 //   #/new              a scene of one's own #/grade                  marks a class
+//   #/assignments/ID   a student's check of a scene
 // Anything else is `lost`: a link that was cut off or mistyped.
 import { signal } from '@preact/signals';
 import { formatVec, parseVec } from './maths/vec.ts';
@@ -9,6 +10,7 @@ import type { Orbit, Walk } from './maths/camera.ts';
 export type Place =
   | { page: 'gallery' }
   | { page: 'grade' }
+  | { page: 'assignment'; id: string }
   | { page: 'new' }
   | { page: 'lost' }
   | { page: 'scene'; id: string; view: URLSearchParams };
@@ -30,6 +32,8 @@ export function parsePlace(hash: string): Place {
   const [path = '', text = ''] = hash.replace(/^#/, '').split(/\?(.*)/s);
   if (path === '/grade') return { page: 'grade' };
   if (path === '/new') return { page: 'new' };
+  const assignment = /^\/assignments\/([a-z0-9-]{1,40})$/.exec(path);
+  if (assignment) return { page: 'assignment', id: assignment[1] as string };
   if (path === '' || path === '/') return { page: 'gallery' };
   const scene = /^\/scene\/(.+)$/.exec(path);
   if (!scene) return { page: 'lost' };

@@ -21,11 +21,11 @@ generator::Mesh expectedOf(const MeshCheckTask::Request& request) {
                                scene::BundleAssets());
 }
 
-nlohmann::ordered_json toJson(const Diagnostic& one) {
+nlohmann::ordered_json toJson(const Diagnostic& one, Language language) {
     nlohmann::ordered_json out{
         {"code", one.code}, {"severity", kSeverityWords[one.severity]}, {"file", one.where.file}};
     if (one.where.line > 0) out["line"] = one.where.line;
-    out["message"] = one.message;
+    out["message"] = textIn(language, one);
     return out;
 }
 
@@ -40,7 +40,8 @@ MeshCheckTask::Reply MeshCheckTask::run(const Request& request, WorkerState&) {
                                {"places", found.places},
                                {"expectedPlaces", found.expectedPlaces},
                                {"findings", nlohmann::ordered_json::array()}};
-    for (const Diagnostic& one : found.findings) out["findings"].push_back(toJson(one));
+    for (const Diagnostic& one : found.findings)
+        out["findings"].push_back(toJson(one, request.language));
     return dumpJson(out);
 }
 

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "core/language.h"
 #include "worker/reply_check.h"
 
 namespace farol::worker {
@@ -13,6 +14,7 @@ struct MeshCheckTask : TaskTraits {
         std::string bytes, name;                  ///< of the file
         std::string expectedBytes, expectedName;  ///< of the other file; empty: `shape`
         std::string shape;                        ///< "sphere 1 10 10"
+        Language language = Language::en;         ///< of the findings
     };
     using Reply = std::string;  ///< JSON: MeshCheck
     using Bounds = ReplyLimits;

@@ -3,6 +3,7 @@
 #include "render/plan/cost.h"
 #include "worker/job.h"
 #include "worker/state.h"
+#include "worker/tasks/assignment.h"
 #include "worker/tasks/check.h"
 #include "worker/tasks/compare.h"
 #include "worker/tasks/grade.h"
@@ -36,10 +37,11 @@ constexpr TaskEntry entryOf() {
 
 std::span<const TaskEntry> tasks() {
     static constexpr TaskEntry kTasks[] = {
-        entryOf<CheckTask>(),     entryOf<CompareTask>(),   entryOf<GradeTask>(),
-        entryOf<InspectTask>(),   entryOf<MeshTask>(),      entryOf<MeshCheckTask>(),
-        entryOf<ModelTask>(),     entryOf<NoticeTask>(),    entryOf<RenderTask>(),
-        entryOf<ReferenceTask>(), entryOf<TurntableTask>(), entryOf<UnpackTask>()};
+        entryOf<AssignmentTask>(), entryOf<CheckTask>(),     entryOf<CompareTask>(),
+        entryOf<GradeTask>(),      entryOf<InspectTask>(),   entryOf<MeshTask>(),
+        entryOf<MeshCheckTask>(),  entryOf<ModelTask>(),     entryOf<NoticeTask>(),
+        entryOf<RenderTask>(),     entryOf<ReferenceTask>(), entryOf<TurntableTask>(),
+        entryOf<UnpackTask>()};
     return kTasks;
 }
 

@@ -38,9 +38,10 @@ std::string unmetOf(const grade::Grade& grade) {
     std::string out;
     for (const grade::RequirementGrade& one : grade.requirements) {
         if (one.met == grade::Met::yes) continue;
-        out += one.id + " " + std::string(grade::kMetWords[one.met]) + ": " + one.reason;
+        out += one.id + " " + std::string(grade::kMetWords[one.met]) + ": " + one.reason.text;
         for (const grade::RequiredThing& miss : one.misses)
-            out += "; line " + std::to_string(miss.where.line) + " " + miss.who + " " + miss.reason;
+            out += "; line " + std::to_string(miss.where.line) + " " + miss.who.text + " " +
+                   miss.reason.text;
         out += "\n";
     }
     return out;
@@ -115,7 +116,7 @@ TEST_CASE("each requirement that is missing is the only one that is not met, wit
         std::string matches;
         for (const grade::RequirementGrade& one : grade.requirements)
             for (const grade::RequiredThing& match : one.matches)
-                if (one.id == scene.unmet) matches += match.who + "\n";
+                if (one.id == scene.unmet) matches += match.who.text + "\n";
         INFO(matches);
         for (const grade::RequirementGrade& one : grade.requirements)
             CHECK((one.met != grade::Met::yes) == (one.id == scene.unmet));
@@ -216,7 +217,7 @@ TEST_CASE("mesh files are checked against a shape, with the vertex's line") {
     REQUIRE_FALSE(wrong.notGraded);
     CHECK(wrong.points == 0.0);
     REQUIRE_FALSE(wrong.requirements.at(0).misses.empty());
-    CHECK(wrong.requirements.at(0).misses.front().reason.find("other divisions") !=
+    CHECK(wrong.requirements.at(0).misses.front().reason.text.find("other divisions") !=
           std::string::npos);
 }
 

@@ -12,6 +12,7 @@ import { Findings, Toast, Tool } from './ui.tsx';
 import { TokenDialog } from './token_dialog.tsx';
 import { ViewerPage } from './viewer_page.tsx';
 
+const AssignmentPage = lazyView(() => import('./assignment_page.tsx').then((module) => module.AssignmentPage), "the assignment's page");
 const GradePage = lazyView(() => import('./grade_page.tsx').then((module) => module.GradePage), 'the grade page');
 
 function useDrops(): void {
@@ -20,7 +21,7 @@ function useDrops(): void {
     const on = <K extends keyof WindowEventMap>(name: K, handle: (event: WindowEventMap[K]) => void): void =>
       window.addEventListener(name, handle, { signal: abort.signal });
     const ofFiles = (event: DragEvent): boolean =>
-      place.value.page !== 'grade' && [...(event.dataTransfer?.types ?? [])].includes('Files');
+      place.value.page !== 'grade' && place.value.page !== 'assignment' && [...(event.dataTransfer?.types ?? [])].includes('Files');
     on('dragover', (event) => {
       if (!ofFiles(event)) return;
       event.preventDefault();
@@ -91,6 +92,7 @@ export function App() {
         <ViewerPage key={id ?? `new ${local.value?.count ?? 0}`} id={id} view={where.page === 'scene' ? where.view : new URLSearchParams()} />
       )}
       {where.page === 'grade' && <GradePage />}
+      {where.page === 'assignment' && <AssignmentPage id={where.id} />}
       {where.page === 'lost' && <GonePage />}
       <UploadNote />
       <TokenDialog />

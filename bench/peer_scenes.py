@@ -22,30 +22,33 @@ class Subject:
         self.page = ""
 
 
-def places():
-    chance = random.Random(7)
+def places(count=COUNT):
+    """(x, y, z, radius, colour of 0 to 255) of spheres; more of them are smaller ones."""
+    chance, scale = random.Random(7), (COUNT / count) ** 0.5
     return [(chance.uniform(-6, 6), chance.uniform(-4, 4), chance.uniform(-6, 0),
-             chance.uniform(0.3, 0.8), [chance.randrange(60, 240) for _ in range(3)])
-            for _ in range(COUNT)]
+             scale * chance.uniform(0.3, 0.8), [chance.randrange(60, 240) for _ in range(3)])
+            for _ in range(count)]
 
 
-def as_xml():
+def as_xml(balls=None):
+    """Given balls are one sphere of radius 1 in many sizes, else each has its own divisions."""
     models = "".join(
-        f'<group><transform><translate x="{x}" y="{y}" z="{z}"/></transform><models>'
-        f'<model command="sphere {r} {SLICES} {STACKS}"><color><diffuse R="{c[0]}" G="{c[1]}" '
-        f'B="{c[2]}"/><specular R="120" G="120" B="120"/><shininess value="30"/></color></model>'
-        f'</models></group>' for x, y, z, r, c in places())
+        f'<group><transform><translate x="{x}" y="{y}" z="{z}"/>' +
+        (f'<scale x="{r}" y="{r}" z="{r}"/>' if balls else "") + '</transform><models>'
+        f'<model command="sphere {1 if balls else r} {SLICES} {STACKS}"><color><diffuse R="{c[0]}" '
+        f'G="{c[1]}" B="{c[2]}"/><specular R="120" G="120" B="120"/><shininess value="30"/></color>'
+        f'</model></models></group>' for x, y, z, r, c in balls or places())
     return ('<world><window width="512" height="512"/><camera><position x="0" y="0" z="12"/>'
             '<lookAt x="0" y="0" z="-3"/><projection fov="45" near="1" far="100"/></camera>'
             f'<lights><light type="directional" dirx="1" diry="2" dirz="2"/></lights>{models}'
             '</world>')
 
 
-def as_pov(aspect):
+def as_pov(aspect, spheres=None):
     balls = "\n".join(
         f"sphere {{<{x},{y},{-z}>,{r} pigment {{color rgb<{c[0] / 255:.4f},{c[1] / 255:.4f},"
         f"{c[2] / 255:.4f}>}} finish {{ambient 0.2 diffuse 1 phong 0.5 phong_size 30}}}}"
-        for x, y, z, r, c in places())
+        for x, y, z, r, c in spheres or places())
     # 45 degrees up and down; a square picture.
     return ('#version 3.7; global_settings {assumed_gamma 1}\n'
             f'camera {{location <0,0,-12> look_at <0,0,3> right x*{aspect:.6f} up y '

@@ -13,7 +13,8 @@ def note(data):
 
 def draw(suite, data, folder):
     for name, plot in {"quality": quality, "scale": scale, "stages": stages,
-                       "encoders": encoders, "peers": peers, "load": load, "grade": grade}[suite](data):
+                       "encoders": encoders, "peers": peers, "time-error": time_error, "load": load,
+                       "grade": grade}[suite](data):
         (folder / f"{name}.svg").write_text(plot.svg())
 
 
@@ -30,6 +31,19 @@ def front(points):
 def label(s):
     how = f"n {s['divisions']}" if s["divisions"] else f"{s['error']:g} px"
     return f"{how}, {s['shading'][0]}, aa {s['aa']}" + (", " + s["filter"] if "filter" in s else "")
+
+
+def time_error(data):
+    for scene in dict.fromkeys(row["scene"] for row in data["results"]):
+        plot = Plot(f"{scene}, 512 x 512: error against CPU time of a frame", "CPU time, ms",
+                    "mean FLIP against the program's limit", True, True, note=note(data))
+        rows = [row for row in data["results"] if row["scene"] == scene and row["flip"] > 0]
+        for program in dict.fromkeys(row["program"] for row in rows):
+            points = [(row["cpuMs"], row["flip"], row["setting"]) for row in rows
+                      if row["program"] == program and row["cpuMs"] > 0]
+            edge = front(points)
+            plot.add(program, [p[:2] for p in edge], labels=[p[2] for p in edge])
+        yield f"time-error-{scene.replace(' ', '-')}", plot
 
 
 def quality(data):

@@ -13,12 +13,13 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT))
-from bench import front, grade, load, peers, scenes  # noqa: E402
+from bench import front, grade, load, peers, scenes, time_error  # noqa: E402
 from bench.plots import draw  # noqa: E402
 
 QUALITY_SCENES = ["teapots", "house", "solar-system", "carousel", "forest", "primitives",
                   "robot-arm", "police-box", "torch", "can-and-pawns", "lighthouse",
                   "skybox-nebula", "mixed"]
+TREND_SCENES = ["house", "teapots", "solar-system", "police-box"]
 
 
 class Progress:
@@ -158,6 +159,7 @@ def encoders(bench, progress):
 
 SUITES = {"quality": (quality, 360, 60), "scale": (scale, 240, 60), "stages": (stages, 90, 15),
           "encoders": (encoders, 40, 8), "peers": (peers.run, 90, 30),
+          "time-error": (time_error.run, 400, 200),
           "load": (load.run, 260, 25), "grade": (grade.run, 90, 10)}
 
 
@@ -168,7 +170,11 @@ def main():
                         help="few settings: under five minutes; results go to build/bench")
     parser.add_argument("--binaries", default=str(ROOT / "build" / "release"))
     parser.add_argument("--plots", action="store_true", help="only draws what is in bench/results")
+    parser.add_argument("--trend", action="store_true",
+                        help="adds a line of this commit to bench/results/trend.csv, no more")
     given = parser.parse_args()
+    if given.trend:
+        return add_trend(given)
     if given.suites == ["front"]:
         return write_front(given)
     names = given.suites or list(SUITES)
@@ -196,6 +202,24 @@ def main():
             draw(name, json.loads(path.read_text()), plots)
         progress.finish(name)
     progress.say(f"done: {results.relative_to(ROOT)}, {plots.relative_to(ROOT)}")
+    return 0
+
+
+def add_trend(given):
+    """CPU ms of a warm frame and PNG of four scenes, 512 x 512: compare lines of one machine."""
+    bench = Bench(given.binaries, False, Progress({"trend": 30}))
+    path = ROOT / "bench/results/trend.csv"
+    at = machine(bench.binaries.resolve().name)
+    row = [at["date"], at["commit"], at["preset"], at["cpu"], f"{at['load'][0]:g}"]
+    for name in TREND_SCENES:
+        found = bench.lines("bench_frame", f"scenes/{name}/scene.xml", "--json", "--runs", 21,
+                            "width=512", "height=512")
+        row.append(f"{found[0]['cpuMs']:.1f}" if found else "")
+    if not path.exists():
+        path.write_text(",".join(["date", "commit", "preset", "cpu", "load", *TREND_SCENES]) + "\n")
+    with path.open("a") as file:
+        file.write(",".join(word.replace(",", " ") for word in row) + "\n")
+    print(path.read_text().splitlines()[-1])
     return 0
 
 

@@ -66,10 +66,9 @@ export async function fetchPicture(origin: Origin, options: Options, signal?: Ab
   if (origin.text !== null || origin.id === null)
     Object.assign(init, { method: 'POST' }, bodyOf(origin));
   try {
-    const response = await request(pictureUrl(origin, options), init);
-    return response.status === 204 ? undefined : response;
+    return await request(pictureUrl(origin, options), init);
   } catch (fault) {
-    if (fault instanceof Problem && fault.superseded) return undefined; // of an older server
+    if (fault instanceof Problem && fault.superseded) return undefined;
     throw fault;
   }
 }

@@ -43,7 +43,8 @@ RedisReply RedisRecords::run(const char* script, const std::vector<std::string>&
 
 void RedisRecords::put(const std::string& table, const std::string& key, const std::string& bytes,
                        Time expires) {
-    if (run(redis::kPutRecord, {nameOf(table, key), bytes, endText(expires), maxBytes_}).number == 0)
+    if (run(redis::kPutRecord, {nameOf(table, key), bytes, endText(expires), maxBytes_}).number ==
+        0)
         throw worker::Busy(message<"store.full">(), kRoomRetryS);
 }
 

@@ -40,11 +40,11 @@ std::set<std::string> codesInSources() {
         for (const auto& entry : fs::recursive_directory_iterator(root)) {
             const std::string ending = entry.path().extension().string();
             if (ending != ".cpp" && ending != ".h") continue;
-            all.merge(
-                matches(readFile(entry.path()),
-                        "\"((?:xml|scene|asset|shape|mesh|image|limit|option|http|busy|worker|"
-                        "bundle|store|grade|assignment|rubric|output|service|check|convert|requirement)"
-                        "\\.[a-z]+(?:-[a-z]+)*|not-ready|internal|usage)(?:/[a-z-]+)?\""));
+            all.merge(matches(
+                readFile(entry.path()),
+                "\"((?:xml|scene|asset|shape|mesh|image|limit|option|http|busy|worker|"
+                "bundle|store|grade|assignment|rubric|output|service|check|convert|requirement)"
+                "\\.[a-z]+(?:-[a-z]+)*|not-ready|internal|usage)(?:/[a-z-]+)?\""));
         }
     }
     for (const char* file : {"scene.xml", "image.png", "image.bmp"}) all.erase(file);

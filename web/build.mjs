@@ -30,7 +30,7 @@ rmSync(out, { recursive: true, force: true });
 const { outputFiles, metafile } = await build({
   entryPoints: { app: join(here, 'src/main.tsx') },
   absWorkingDir: here, outdir: out, entryNames: 'assets/[name]-[hash]', chunkNames: 'assets/[name]-[hash]',
-  assetNames: 'assets/[name]-[hash]', bundle: true, splitting: true, format: 'esm', target: 'es2021', minify: true,
+  assetNames: 'assets/[name]-[hash]', bundle: true, splitting: true, format: 'esm', target: 'es2021', charset: 'utf8', minify: true,
   jsx: 'automatic', jsxImportSource: 'preact', metafile: true, write: false, logLevel: 'warning', legalComments: 'none',
   plugins: [documents], nodePaths: [join(packages, 'node_modules')],
 });
@@ -57,5 +57,8 @@ for (const path of queue) {
   queue.push(...metafile.outputs[path].imports.filter((one) => one.kind === 'import-statement').map((one) => one.path));
 }
 const first = [...statics].map(named).concat(named(entry[1].cssBundle)).reduce((sum, path) => sum + size(path), 0);
-const all = outputFiles.reduce((sum, file) => sum + gzipSync(file.contents).length, 0);
-console.log(`page: ${(first / 1000).toFixed(1)} kB compressed at first, ${(all / 1000).toFixed(1)} kB in all`);
+const isTranslation = ([, { entryPoint }]) => /^languages\//.test(entryPoint ?? '');
+const translations = Object.entries(metafile.outputs).filter(isTranslation).map(([path]) => size(named(path)));
+const all = outputFiles.reduce((sum, file) => sum + gzipSync(file.contents).length, 0) - translations.reduce((sum, one) => sum + one, 0);
+const kB = (bytes) => (bytes / 1000).toFixed(1);
+console.log(`page: ${kB(first)} kB compressed at first, ${kB(all)} kB in all, a translation ${kB(Math.max(...translations))} kB`);

@@ -1,5 +1,6 @@
 import { render } from 'preact';
 import { App } from './views/app.tsx';
+import { firstWords } from './words.ts';
 import './style/base.css';
 import './style/gallery.css';
 import './style/viewer.css';
@@ -8,4 +9,4 @@ import '../../grade/report/view.css';
 import './style/grade.css';
 import './style/assignment.css';
 
-render(<App />, document.getElementById('app') as HTMLElement);
+void firstWords().then(() => render(<App />, document.getElementById('app') as HTMLElement));

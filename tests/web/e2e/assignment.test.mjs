@@ -75,7 +75,7 @@ for (const [language, text] of Object.entries(words))
       assert.deepEqual(states, [text.met, text.partly, text.unmet]);
       const all = await view.page.locator('.result').innerText();
       assert.match(all, new RegExp(`${text.differs}\\s*${text.line}`));
-      assert.equal(await view.page.locator('main').getAttribute('lang'), language);
+      assert.equal(await view.page.locator('html').getAttribute('lang'), language);
       assert.equal(await view.page.locator('.mask rect').count(), 192);
       await view.page.locator('.pictures img').evaluate((image) => image.decode());
       assert.ok(!all.includes('40'), 'an angle of the reference is shown');

@@ -1,7 +1,7 @@
 // An assignment as a student's page uses it (api/openapi.yaml).
 import { findingsOf, Problem, problemOf, type Finding } from '../api.ts';
 import type { Subject } from '../grade/submissions.ts';
-import type { Language } from './texts.ts';
+import type { Language } from '../words.ts';
 
 export interface Assignment {
   id: string;

@@ -1,13 +1,8 @@
 // Texts of the student page in each language; those of findings come from the server.
-import { signal } from '@preact/signals';
-import { recall, remember } from '../storage.ts';
-
-export const languages = { en: 'English', pt: 'Português', es: 'Español', cs: 'Čeština' } as const;
-export type Language = keyof typeof languages;
+import type { Language } from '../words.ts';
 
 export interface Texts {
   about: string;
-  language: string;
   code: string;
   codeHint: string;
   scene: string;
@@ -44,7 +39,6 @@ export interface Texts {
 const texts: Record<Language, Texts> = {
   en: {
     about: 'Check your scene before you hand it in. The check shows how far you are, and where to look.',
-    language: 'Language',
     code: 'Your code',
     codeHint: 'Your teacher gave it to you.',
     scene: 'Your scene',
@@ -79,7 +73,6 @@ const texts: Record<Language, Texts> = {
   },
   pt: {
     about: 'Verifique a sua cena antes de a entregar. A verificação mostra quanto já está feito e onde procurar.',
-    language: 'Língua',
     code: 'O seu código',
     codeHint: 'Foi o professor que lho deu.',
     scene: 'A sua cena',
@@ -114,7 +107,6 @@ const texts: Record<Language, Texts> = {
   },
   es: {
     about: 'Compruebe su escena antes de entregarla. La comprobación muestra cuánto está hecho y dónde mirar.',
-    language: 'Idioma',
     code: 'Su código',
     codeHint: 'Se lo dio su profesor.',
     scene: 'Su escena',
@@ -149,7 +141,6 @@ const texts: Record<Language, Texts> = {
   },
   cs: {
     about: 'Zkontrolujte svou scénu, než ji odevzdáte. Kontrola ukáže, jak daleko jste a kam se podívat.',
-    language: 'Jazyk',
     code: 'Váš kód',
     codeHint: 'Dostali jste ho od učitele.',
     scene: 'Vaše scéna',
@@ -184,24 +175,4 @@ const texts: Record<Language, Texts> = {
   },
 };
 
-const isLanguage = (text: string): text is Language => text in languages;
-
-/** The language chosen here before, else the first of the browser's that is known. */
-export function preferredLanguage(stored: string | null, browser: readonly string[]): Language {
-  if (stored !== null && isLanguage(stored)) return stored;
-  return browser.map((one) => one.toLowerCase().split('-')[0] as string).find(isLanguage) ?? 'en';
-}
-
-export const language = signal<Language>(preferredLanguage(recall('language'), navigator.languages ?? []));
-
-export function choose(value: string): void {
-  if (!isLanguage(value)) return;
-  language.value = value;
-  remember('language', value);
-}
-
 export const textsOf = (of: Language): Texts => texts[of];
-
-/** A time in the reader's zone and language. */
-export const timeIn = (of: Language, time: string): string =>
-  new Date(time).toLocaleString(of, { dateStyle: 'medium', timeStyle: 'short' });

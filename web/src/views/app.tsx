@@ -8,9 +8,10 @@ import { lazyView } from './lazy.tsx';
 import { Gallery } from './gallery.tsx';
 import { GonePage } from './gone.tsx';
 import { Mark } from './icons.tsx';
-import { Findings, Toast, Tool } from './ui.tsx';
+import { Findings, say, Toast, Tool } from './ui.tsx';
 import { TokenDialog } from './token_dialog.tsx';
 import { ViewerPage } from './viewer_page.tsx';
+import { chooseLanguage, language, languages, t } from '../words.ts';
 
 const AssignmentPage = lazyView(() => import('./assignment_page.tsx').then((module) => module.AssignmentPage), "the assignment's page");
 const GradePage = lazyView(() => import('./grade_page.tsx').then((module) => module.GradePage), 'the grade page');
@@ -47,15 +48,22 @@ function Head() {
   );
   return (
     <header class="head">
-      <a class="brand" href="#/" aria-label="Farol, all scenes"><Mark /><span>Farol</span></a>
-      <nav aria-label="Pages">
-        {link('gallery', '#/', 'Scenes')}
-        {link('new', '#/new', 'New')}
-        {link('grade', '#/grade', 'Grade')}
+      <a class="brand" href="#/" aria-label={t('Farol, all scenes')}><Mark /><span>Farol</span></a>
+      <nav aria-label={t('Pages')}>
+        {link('gallery', '#/', t('Scenes'))}
+        {link('new', '#/new', t('New'))}
+        {link('grade', '#/grade', t('Grade'))}
       </nav>
       <span class="space" />
       <a class="quiet" href="openapi.yaml">API</a>
-      <Tool icon={dark.value ? 'sun' : 'moon'} label={dark.value ? 'Light theme' : 'Dark theme'} onClick={toggleTheme} />
+      <span class="language">
+        <b aria-hidden="true">{language.value}</b>
+        <select aria-label={t('Language')} value={language.value} onChange={(event) =>
+          void chooseLanguage(event.currentTarget.value).catch(() => say(t('The server did not send this language. Try again later.')))}>
+          {Object.entries(languages).map(([key, name]) => <option key={key} value={key} lang={key} selected={key === language.value}>{name}</option>)}
+        </select>
+      </span>
+      <Tool icon={dark.value ? 'sun' : 'moon'} label={dark.value ? t('Light theme') : t('Dark theme')} onClick={toggleTheme} />
     </header>
   );
 }
@@ -85,7 +93,7 @@ export function App() {
       <a class="skip" href="#main" onClick={(event) => {
         event.preventDefault();
         document.getElementById('main')?.querySelector<HTMLElement>('[tabindex], a, button, input')?.focus();
-      }}>Skip to the content</a>
+      }}>{t('Skip to the content')}</a>
       <Head />
       {where.page === 'gallery' && <Gallery />}
       {(where.page === 'scene' || where.page === 'new') && (

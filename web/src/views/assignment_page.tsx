@@ -2,12 +2,12 @@
 import { signal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 import { checkSubmission, getAssignment, messagesOf, type Answer, type Assignment, type Thing } from '../assignment/check.ts';
-import { choose, language, languages, textsOf, timeIn, type Texts } from '../assignment/texts.ts';
+import { textsOf, type Texts } from '../assignment/texts.ts';
 import { chooseFiles, filesOf } from '../files.ts';
 import { subjectsOf, type Subject } from '../grade/submissions.ts';
 import type { NamedFile } from '../scene/bundle.ts';
+import { language, timeText } from '../words.ts';
 import { Icon } from './icons.tsx';
-import { Choice } from './ui.tsx';
 
 const assignment = signal<Assignment | null | undefined>(undefined); // undefined: not known yet
 const code = signal('');
@@ -44,10 +44,9 @@ async function check(id: string): Promise<void> {
 }
 
 function Times({ of, texts }: { of: Assignment; texts: Texts }) {
-  const time = (text: string): string => timeIn(language.value, text);
-  if (!of.open && of.opens && Date.parse(of.opens) > Date.now()) return <p class="when">{texts.opens(time(of.opens))}</p>;
-  if (!of.open && of.closes) return <p class="when">{texts.closed(time(of.closes))}</p>;
-  return of.closes ? <p class="when">{texts.closes(time(of.closes))}</p> : null;
+  if (!of.open && of.opens && Date.parse(of.opens) > Date.now()) return <p class="when">{texts.opens(timeText(of.opens))}</p>;
+  if (!of.open && of.closes) return <p class="when">{texts.closed(timeText(of.closes))}</p>;
+  return of.closes ? <p class="when">{texts.closes(timeText(of.closes))}</p> : null;
 }
 
 function Drop({ texts }: { texts: Texts }) {
@@ -144,7 +143,7 @@ function Mask({ mask, texts }: { mask: NonNullable<Answer['mask']>; texts: Texts
 
 function Result({ of, texts }: { of: Answer; texts: Texts }) {
   const { band, bands, fromPercent, toPercent } = of.points;
-  const time = of.tries.next && of.tries.left > 0 && Date.parse(of.tries.next) > Date.now() ? `, ${texts.next(timeIn(language.value, of.tries.next))}` : '';
+  const time = of.tries.next && of.tries.left > 0 && Date.parse(of.tries.next) > Date.now() ? `, ${texts.next(timeText(of.tries.next))}` : '';
   return (
     <section class="result" aria-labelledby="result-title">
       <h2 id="result-title">{texts.result}</h2>
@@ -171,10 +170,9 @@ export function AssignmentPage({ id }: { id: string }) {
   }, [of, id]);
   const isReady = subject.value !== null && code.value.trim() !== '' && !checking.value;
   return (
-    <main class="grade assignment" id="main" lang={language.value}>
+    <main class="grade assignment" id="main">
       <div class="lead">
         <div class="titles"><h1>{of?.title ?? id}</h1>{of && <Times of={of} texts={texts} />}</div>
-        <Choice label={texts.language} value={language.value} choices={Object.entries(languages)} onChange={choose} />
       </div>
       {of === null && <p class="problem" role="alert">{texts.missing}</p>}
       {of && (

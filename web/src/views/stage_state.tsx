@@ -6,15 +6,16 @@ import { countFindings } from '../scene/state.ts';
 import type { Viewer } from '../scene/viewer.ts';
 import { Icon } from './icons.tsx';
 import { Findings, say, type Repair } from './ui.tsx';
+import { plural } from '../words.ts';
 
 const drawerOpen = signal(false);
-
-const plural = (n: number, one: string): string => `${n} ${one}${n === 1 ? '' : 's'}`;
 
 /** "2 errors, 1 warning" */
 export function countsText(findings: readonly Finding[]): string {
   const { errors, warnings } = countFindings(findings);
-  return [errors && plural(errors, 'error'), warnings && plural(warnings, 'warning')].filter(Boolean).join(', ');
+  return [
+    errors && plural(errors, '{count} error', '{count} errors'), warnings && plural(warnings, '{count} warning', '{count} warnings'),
+  ].filter(Boolean).join(', ');
 }
 
 const attempt = (act: () => Promise<unknown>): void =>

@@ -1,1 +1,0 @@
-import{a,b,c}from"./chunk-U5B3D2AV.js";import"./chunk-MQQECXQ2.js";import"./chunk-6FOBMWA6.js";import"./chunk-AGTO63LT.js";import"./chunk-HKFBGV3Y.js";import"./chunk-PMRFXTL7.js";import"./chunk-45K7QBPV.js";import"./chunk-X6RJ2OPA.js";export{a as cameraLightOf,b as turnCameraLight,c as turnLight};

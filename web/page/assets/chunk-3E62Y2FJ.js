@@ -1,1 +1,0 @@
-function e(r){try{return localStorage.getItem(`farol.${r}`)}catch{return null}}function l(r,t){try{return t===null?localStorage.removeItem(`farol.${r}`):localStorage.setItem(`farol.${r}`,t),!0}catch{return!1}}export{e as a,l as b};

@@ -11,7 +11,9 @@ double distanceToSegment(const glm::dvec2& eye, const glm::dvec2& from, const gl
     return glm::length(eye - (from + t * along));
 }
 
-glm::dvec2 aboutY(const glm::dvec3& point) { return {std::hypot(point.x, point.z), point.y}; }
+glm::dvec2 aboutY(const glm::dvec3& point) {
+    return {std::sqrt(point.x * point.x + point.z * point.z), point.y};
+}
 
 double fullTurnOfSlices(const std::vector<double>& levels) { return levels.at(0); }
 

@@ -10,6 +10,7 @@
 #include "core/lru_cache.h"
 #include "generator/mesh.h"
 #include "generator/registry.h"
+#include "render/plan/close_pairs.h"
 #include "scene/files/assets.h"
 #include "scene/scene.h"
 
@@ -71,6 +72,8 @@ class MeshLibrary {
     std::shared_ptr<const MeshData> get(const MeshData& coarse, const scene::Model& model,
                                         const scene::Assets& assets,
                                         const generator::Fineness& fineness);
+    /// Known pairs of these meshes.
+    ClosePairs& closePairs() { return closePairs_; }
 
   private:
     /// By the text of its source, or by the coarse mesh's id and the fineness.
@@ -89,6 +92,7 @@ class MeshLibrary {
                                          Diagnostics findings = {},
                                          const generator::ShapeCall* balanced = nullptr);
     LruCache<Key, std::shared_ptr<const MeshData>> meshes_;
+    ClosePairs closePairs_;
 };
 
 }  // namespace farol::render

@@ -141,7 +141,8 @@ class Planner {
         plan_.stats.instances += static_cast<int>(list.instances.size());
         const scene::Material undressed = scene::defaultMaterial(scene.dialect);
         textureOf_.assign(list.textures.size(), -1);
-        if (fillsFaces()) close_ = needExactDepth(list, found.sides, view, errorPx_);
+        if (fillsFaces())
+            close_ = needExactDepth(list, found.sides, view, errorPx_, meshes_.closePairs());
         const auto outside =
             std::count(found.sides.begin(), found.sides.end(), Frustum::Side::outside);
         plan_.items.reserve(plan_.items.size() + found.sides.size() -

@@ -141,7 +141,7 @@ TEST_CASE("what is drawn by one call gives the same pixels as model by model") {
             CHECK(batched.pixels == single.pixels);
             CHECK(many.drawCalls > 200);
             if (layer != render::Layer::id)
-                CHECK(few.drawCalls <=
-                      many.drawCalls / 2);  // models close to others are drawn apart
+                // Models close to others have exact depth and are drawn apart from their like.
+                CHECK(few.drawCalls <= many.drawCalls * 3 / 5);
         }
 }

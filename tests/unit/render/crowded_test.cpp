@@ -125,6 +125,39 @@ TEST_CASE("of nearly equal surfaces the outer one shows") {
     CHECK(apart.stats.exactDepth == 0);
 }
 
+TEST_CASE("exact depth is for crossings at small angles alone") {
+    render::Renderer renderer;
+    struct Row {
+        const char* name;
+        std::string first, second;
+        int exact;
+    };
+    const std::vector<Row> rows{
+        {"a pole through the ground", group("<translate y='-1'/>", "cylinder 0.05 3"),
+         group("", "plane 4"), 0},
+        {"a flat disc in a wall", group("", "cylinder 2 0.1"),
+         group("<rotate angle='90' x='1'/>", "plane 4"), 0},
+        {"a ball through a flat disc's side", group("", "cylinder 2 0.1"),
+         group("<translate x='2' y='0.05'/>", "sphere 0.3"), 0},
+        {"a pole on the ground", group("", "cylinder 0.5 3"), group("", "plane 4"), 0},
+        {"a cylinder that lies in a plane's way",
+         group("<rotate angle='90' x='1'/>", "cylinder 0.5 3"),
+         group("<translate y='-0.49'/>", "plane 4"), 1},
+        {"a long cylinder within another", group("", "cylinder 0.5 3"),
+         group("<translate y='0.5'/>", "cylinder 0.505 2"), 2},
+        {"flat balls nearly the same", group("<scale x='1' y='0.2' z='1'/>", "sphere 1"),
+         group("<scale x='1.01' y='0.201' z='0.99'/>", "sphere 1"), 2},
+    };
+    for (const Row& row : rows) {
+        CAPTURE(row.name);
+        for (int time = 0; time < 2; ++time)  // the second answer is kept from the first
+            CHECK(draw(renderer, row.first + row.second).stats.exactDepth == row.exact);
+        CHECK(draw(renderer, "<group><rotate angle='33' x='1' y='3' z='2'/>" + row.first +
+                                 row.second + "</group>")
+                  .stats.exactDepth == row.exact);
+    }
+}
+
 TEST_CASE("the border of a shallow crossing is smoothed") {
     render::Renderer renderer;
     render::Job job;

@@ -81,6 +81,8 @@ export function listen(stage: HTMLElement, viewer: Viewer, actions: Actions): ()
     fingers.set(event.pointerId, { x: event.clientX, y: event.clientY });
     if (travelled < 3) return; // a press with a trembling hand is not a drag
     const [a, b] = [...fingers.values()];
+    // In light mode a finger turns the light: a phone has no keys.
+    if (viewer.lightMode.value && event.pointerType === 'touch' && !b) return actions.light((dx * 90) / height(), (-dy * 90) / height());
     if (a && b) {
       const [c, d] = before as [Finger, Finger];
       const grown = Math.hypot(a.x - b.x, a.y - b.y) / Math.max(1, Math.hypot(c.x - d.x, c.y - d.y));

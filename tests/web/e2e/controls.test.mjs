@@ -120,7 +120,7 @@ test('every setting asks for its option, draws another picture, and back', async
       ...['points', 'wireframe', 'solid', 'chess', 'flat'].map((mode) => ['shading', mode, choose('Shading', mode), choose('Shading', '')]),
       ['shading', 'wireframe', tick('Wireframe', true), tick('Wireframe', false)],
       ['axes', '1', tick('Axes', true), tick('Axes', false)],
-      ['focus', '1', tick('Focus cube', true), tick('Focus cube', false)],
+      ['focus', '1', tick('Camera’s target', true), tick('Camera’s target', false)],
       ['debug', '1', tick('Outlines and normals', true), tick('Outlines and normals', false)],
       ['aa', '16', choose('Samples a pixel', '16'), choose('Samples a pixel', '')],
       ...['depth', 'normal', 'id'].map((layer) => ['layer', layer, choose('Shows', layer), choose('Shows', '')]),
@@ -128,7 +128,7 @@ test('every setting asks for its option, draws another picture, and back', async
   });
   // The error bound is a slider of powers of two.
   const own = (await canvasPixels(view.page)).digest;
-  assert.equal((await asks(view, () => view.page.getByRole('slider', { name: 'Error bound' }).fill('3'))).error, '8');
+  assert.equal((await asks(view, () => view.page.getByRole('slider', { name: 'Precision of shapes' }).fill('3'))).error, '8');
   assert.notEqual((await canvasPixels(view.page)).digest, own);
   await view.close();
 });
@@ -173,16 +173,17 @@ test('the command, the download and the link give the picture that is shown', as
   const view = await openScene('torch', { acceptDownloads: true, permissions: ['clipboard-read', 'clipboard-write'] });
   await asks(view, () => view.page.keyboard.press('ArrowLeft'));
   const shown = await canvasPixels(view.page), copied = () => view.page.evaluate(() => navigator.clipboard.readText());
-  await view.page.getByRole('button', { name: 'Copy as curl' }).click();
+  await view.page.getByRole('button', { name: 'Share', exact: true }).click();
+  await view.page.getByRole('button', { name: 'Copy: curl' }).click();
   await view.page.getByText('Command copied.').waitFor();
   const url = /^curl '([^']+)' -o picture\.png$/.exec(await copied())?.[1];
   assert.ok(url, await copied());
   assert.deepEqual(await picturePixels(view.page, url), shown);
-  const [download] = await Promise.all([view.page.waitForEvent('download'), view.page.getByRole('button', { name: 'Download PNG' }).click()]);
+  const [download] = await Promise.all([view.page.waitForEvent('download'), view.page.getByRole('button', { name: 'PNG, exact' }).click()]);
   assert.equal(download.suggestedFilename(), 'torch.png');
   const answer = Buffer.from(await (await fetch(url)).arrayBuffer());
   assert.ok(readFileSync(await download.path()).equals(answer), 'the file is the picture');
-  await view.page.getByRole('button', { name: 'Copy a link to this view' }).click();
+  await view.page.getByRole('button', { name: 'Copy: This view' }).click();
   await view.page.getByText('Link copied.').waitFor();
   const other = await openPage(browser, await copied());
   await settled(other);
@@ -204,8 +205,8 @@ test('the turntable goes round in small frames, and stops at a full picture', as
   const azimuths = [...view.moving().slice(before).map((one) => Number(one.azimuth)), Number(stopped.azimuth)];
   assert.ok(azimuths.every((one, i) => i === 0 || (one - azimuths[i - 1] + 360) % 360 < 180), azimuths.join());
   assert.ok(new Set(azimuths).size > 3, azimuths.join());
-  await view.page.getByRole('button', { name: 'Panel' }).click();
-  const href = await view.page.getByRole('link', { name: 'Download as animated PNG' }).getAttribute('href');
+  await view.page.getByRole('button', { name: 'Share', exact: true }).click();
+  const href = await view.page.locator('.share').getByRole('link', { name: 'Download' }).getAttribute('href');
   const short = new URL(href, server.url);
   short.searchParams.set('frames', '4');
   const answer = await fetch(short);

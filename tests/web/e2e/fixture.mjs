@@ -15,8 +15,8 @@ const axePath = require.resolve('axe-core/axe.min.js');
 export const binary = process.env.FAROL_BINARY ?? join(root, 'build/release/farol');
 
 /** A daemon of its own; `stop` ends it. */
-export async function startServer({ scenes = join(root, 'scenes'), args = [] } = {}) {
-  const child = spawn(binary, ['serve', '--port', '0', '--scenes', scenes, '--workers', '2', '--wait', '30', '--deadline', '60', ...args], { stdio: ['ignore', 'pipe', 'pipe'] });
+export async function startServer({ scenes = join(root, 'scenes'), args = [], workers = 2 } = {}) {
+  const child = spawn(binary, ['serve', '--port', '0', '--scenes', scenes, '--workers', String(workers), '--wait', '30', '--deadline', '60', ...args], { stdio: ['ignore', 'pipe', 'pipe'] });
   let out = '';
   const url = await new Promise((done, failed) => {
     const timer = setTimeout(() => failed(new Error(`no server after 60 s: ${out}`)), 60000);

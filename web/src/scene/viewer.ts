@@ -225,11 +225,11 @@ export class Viewer extends EditedScene {
     return this.loop.line.isSlow && this.quality.value !== 'reference' ? { format: 'webp', quality: 85 } : { format: 'png' };
   }
 
-  /** The image on show as PNG: asked for anew where it came otherwise. Null: there is none yet. */
-  async exactImage(): Promise<Blob | null> {
+  /** The image on show: asked for anew where it came otherwise. Null: there is none yet. */
+  async imageAs(format: 'png' | 'webp'): Promise<Blob | null> {
     const still = this.still.value;
-    if (!still || still.type === 'image/png') return still;
-    const response = await fetchPicture(this.origin(), { ...this.pictureOptions(), format: 'png' });
+    if (!still || still.type === `image/${format}`) return still;
+    const response = await fetchPicture(this.origin(), { ...this.pictureOptions(), format });
     return response ? response.blob() : null;
   }
 

@@ -1,44 +1,20 @@
 // What one does with the scene on show.
-import { signal } from '@preact/signals';
-import { useEffect, useRef } from 'preact/hooks';
-import { curlOf } from '../scene/curl.ts';
 import type { Viewer } from '../scene/viewer.ts';
-import { helpKeys } from './help.ts';
 import { hudShown, showHud } from './hud.tsx';
 import { openPanel, panel } from './viewer_page.tsx';
 import { saveBlob } from './save.ts';
-import { copy, say, Tool } from './ui.tsx';
+import { lazyView } from './lazy.tsx';
+import { hadHelp, sharing, showHelp } from './sharing.ts';
+import { say, Tool } from './ui.tsx';
 
-const helpShown = signal(false);
+const Help = lazyView(() => import('./help_dialog.tsx').then((module) => module.Help), 'the help');
+const ShareDialog = lazyView(() => import('./share_dialog.tsx').then((module) => module.ShareDialog), 'the dialog');
 
 const fileName = (viewer: Viewer): string => (viewer.id ?? 'scene').replaceAll('/', '-').slice(0, 60);
 
-export function Help() {
-  const dialog = useRef<HTMLDialogElement>(null);
-  useEffect(() => {
-    if (helpShown.value) dialog.current?.showModal();
-    else dialog.current?.close();
-  }, [helpShown.value]);
-  return (
-    <dialog ref={dialog} class="help" aria-labelledby="help-title" onClose={() => (helpShown.value = false)}>
-      <h2 id="help-title">Moving about</h2>
-      <dl>
-        {helpKeys.map(([keys, text]) => (
-          <div key={keys}><dt>{keys.split(' ').map((key) => <kbd key={key}>{key}</kbd>)}</dt><dd>{text}</dd></div>
-        ))}
-      </dl>
-      <button type="button" class="button" onClick={() => (helpShown.value = false)}>Close</button>
-    </dialog>
-  );
-}
-
 export function Toolbar({ viewer }: { viewer: Viewer }) {
-  const share = (): void => {
-    if (viewer.edited.value) say('The link shows the scene as it is stored, without your edits.');
-    void copy(location.href.replace(/#.*$/, '') + viewer.link(), 'Link');
-  };
   const png = async (): Promise<void> => {
-    const blob = await viewer.exactImage().catch((fault: unknown) => (viewer.report(fault), null));
+    const blob = await viewer.imageAs('png').catch((fault: unknown) => (viewer.report(fault), null));
     if (blob) saveBlob(blob, `${fileName(viewer)}.png`);
     else say('There is no full picture yet.');
   };
@@ -49,13 +25,13 @@ export function Toolbar({ viewer }: { viewer: Viewer }) {
   return (
     <div class="toolbar" role="toolbar" aria-label="Scene">
       <div class="tools">
-        <Tool icon="undo" label="Undo" keys="Ctrl+Z" disabled={!viewer.canUndo.value} onClick={() => viewer.undo()} />
-        <Tool icon="redo" label="Redo" keys="Ctrl+Shift+Z" disabled={!viewer.canRedo.value} onClick={() => viewer.redo()} />
-        <Tool icon="home" label="Reset the view" keys="R" onClick={() => viewer.reset()} />
-        <Tool icon="walk" label="Walk" keys="M" pressed={viewer.walk.value !== null} onClick={() => viewer.toggleWalk()} />
-        <Tool icon="lamp" label="Light mode: A Z and X C turn the camera's light" keys="L" pressed={viewer.lightMode.value}
+        <Tool icon="undo" label="Undo" short="Undo" keys="Ctrl+Z" disabled={!viewer.canUndo.value} onClick={() => viewer.undo()} />
+        <Tool icon="redo" label="Redo" short="Redo" keys="Ctrl+Shift+Z" disabled={!viewer.canRedo.value} onClick={() => viewer.redo()} />
+        <Tool icon="home" label="Reset the view" short="Reset" keys="R" onClick={() => viewer.reset()} />
+        <Tool icon="walk" label="Walk" short="Walk" keys="M" pressed={viewer.walk.value !== null} onClick={() => viewer.toggleWalk()} />
+        <Tool icon="lamp" label="Light mode: A Z and X C turn the camera's light" short="Light" keys="L" pressed={viewer.lightMode.value}
           onClick={() => (viewer.lightMode.value = !viewer.lightMode.value)} />
-        <Tool icon="turntable" label="Turntable" keys="T" pressed={viewer.turning.value} onClick={() => viewer.toggleTurntable()} />
+        <Tool icon="turntable" label="Turntable" short="Turntable" keys="T" pressed={viewer.turning.value} onClick={() => viewer.toggleTurntable()} />
       </div>
       <div class="quality" role="group" aria-label="Quality of the picture at rest">
         {(['fast', 'standard', 'reference'] as const).map((quality) => (
@@ -65,16 +41,16 @@ export function Toolbar({ viewer }: { viewer: Viewer }) {
         ))}
       </div>
       <div class="tools">
-        <Tool icon="link" label="Copy a link to this view" onClick={share} />
-        <Tool icon="terminal" label="Copy as curl" onClick={() => void copy(curlOf(viewer), 'Command')} />
-        <Tool icon="download" label="Download PNG" onClick={() => void png()} />
-        <Tool icon="fullscreen" label="Full screen" onClick={fullscreen} />
-        <Tool icon="eye" label="Times and counts" pressed={hudShown.value} onClick={() => showHud(!hudShown.value)} />
-        <Tool icon="help" label="Keys" onClick={() => (helpShown.value = true)} />
+        <Tool icon="link" label="Share" text="Share" onClick={() => (sharing.value = true)} />
+        <Tool icon="download" label="Download PNG" short="PNG" onClick={() => void png()} />
+        <Tool icon="fullscreen" label="Full screen" short="Full screen" onClick={fullscreen} />
+        <Tool icon="eye" label="Times and counts" short="Numbers" pressed={hudShown.value} onClick={() => showHud(!hudShown.value)} />
+        <Tool icon="help" label="Keys and a tour" keys="?" short="Help" onClick={showHelp} />
         <Tool icon="panel" label="Panel" pressed={panel.value !== 'none'} text="Panel"
           onClick={() => openPanel(panel.value === 'none' ? 'view' : 'none')} />
       </div>
-      <Help />
+      {hadHelp.value && <Help />}
+      {sharing.value && <ShareDialog viewer={viewer} />}
     </div>
   );
 }

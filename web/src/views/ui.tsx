@@ -41,15 +41,16 @@ interface ToolProps {
   pressed?: boolean;
   disabled?: boolean;
   onClick: () => void;
-  text?: string;
+  text?: string; // beside the icon
+  short?: string; // below it, where there is room
 }
 
-export const Tool = ({ icon, label, keys, pressed, disabled, onClick, text }: ToolProps) => (
+export const Tool = ({ icon, label, keys, pressed, disabled, onClick, text, short }: ToolProps) => (
   <button
     type="button" class={text ? 'tool worded' : 'tool'} aria-label={label} onClick={onClick} disabled={disabled ?? false}
     title={keys ? `${label} (${keys})` : label} {...(pressed === undefined ? {} : { 'aria-pressed': pressed })}
   >
-    <Icon name={icon} />{text && <span>{text}</span>}
+    <Icon name={icon} />{text && <span>{text}</span>}{short && <span class="short" aria-hidden="true">{short}</span>}
   </button>
 );
 

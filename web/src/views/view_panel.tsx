@@ -1,8 +1,7 @@
 // How the picture is drawn: every picture option that makes sense while looking.
-import { deleteScene, findingsOf, query, sentence } from '../api.ts';
+import { deleteScene, findingsOf, sentence } from '../api.ts';
 import type { Viewer } from '../scene/viewer.ts';
 import { cullingShown, showHud } from './hud.tsx';
-import { Icon } from './icons.tsx';
 import { Check, Choice, say, Section } from './ui.tsx';
 
 const asSet = ['', 'as the scene says'] as const;
@@ -44,25 +43,27 @@ export function ViewPanel({ viewer }: { viewer: Viewer }) {
       <Section title="Precision">
         {choice('aa', 'Samples a pixel', pairs(['1', '2', '4', '8', '16']))}
         <label class="field">
-          <span>Error bound</span>
+          <span>Precision of shapes</span>
           <span class="with-value">
             <input type="range" min={-6} max={3} step={0.5} value={Math.log2(error)} aria-valuetext={`${error} pixels`}
               onInput={(event) => viewer.setOption('error', String(Number((2 ** Number(event.currentTarget.value)).toPrecision(3))))} />
             <output>{error} px</output>
           </span>
         </label>
+        <p class="note explained">How far a drawn surface may be from the exact one, in pixels: smaller is rounder and slower.</p>
       </Section>
       <Section title="Overlays">
         <div class="checks">
           {flag('axes', 'Axes')}
           {flag('curves', 'Curves')}
-          {flag('focus', 'Focus cube')}
+          {flag('focus', 'Camera’s target')}
           {flag('debug', 'Outlines and normals')}
           <Check label="Culling counts" checked={cullingShown.value} onChange={(on) => {
             cullingShown.value = on;
             if (on) showHud(true);
           }} />
         </div>
+        <p class="note explained">The target is shown as a small cube: the camera looks at it and goes round it. Culled is what is outside of the view and not drawn.</p>
       </Section>
       <Section title="Picture">
         {choice('layer', 'Shows', [['', 'colour'], ['depth', 'depth'], ['normal', 'normals'], ['id', 'model numbers']])}
@@ -81,12 +82,6 @@ export function ViewPanel({ viewer }: { viewer: Viewer }) {
             onChange={(event) => viewer.setOption('entity', event.currentTarget.value.trim())} />
         </label>
       </Section>
-      {viewer.facts.value?.links.turntable && !viewer.edited.value && (
-        <Section title="Turntable">
-          <a class="button" href={`${viewer.facts.value.links.turntable}?${query({ ...viewer.turntableOptions(), frames: 48, fps: 16, format: 'apng' })}`}
-            download={`${(viewer.id ?? 'scene').replaceAll('/', '-')}-turntable.png`}><Icon name="turntable" />Download as animated PNG</a>
-        </Section>
-      )}
       {counts && (
         <Section title="Scene">
           <dl class="counts">

@@ -13,6 +13,7 @@ import { recall, remember } from '../storage.ts';
 import { GonePage } from './gone.tsx';
 import { focusStage, Stage } from './stage.tsx';
 import { FindingsDrawer, Notice, StageState } from './stage_state.tsx';
+import { showHelp } from './sharing.ts';
 import { TimeBar } from './time_bar.tsx';
 import { Toolbar } from './toolbar.tsx';
 import { ViewPanel } from './view_panel.tsx';
@@ -86,6 +87,8 @@ export function ViewerPage({ id, view }: { id: string | null; view: URLSearchPar
     const keep = (): void => viewer.flushDraft();
     addEventListener('pagehide', keep);
     const historyKeys = (event: KeyboardEvent): void => {
+      const isInField = (event.composedPath()[0] as Element).matches('input, textarea, select, [contenteditable=true]');
+      if (event.key === '?' && !isInField && !event.ctrlKey && !event.metaKey) return showHelp();
       const key = event.key.toLowerCase(), isRedo = key === 'y' || (key === 'z' && event.shiftKey);
       if (!(event.ctrlKey || event.metaKey) || event.altKey || (key !== 'z' && key !== 'y')) return;
       // Fields have a history of their own; the editor has none.

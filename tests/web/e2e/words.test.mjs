@@ -1,0 +1,98 @@
+// Help, labels, and the page under a finger.
+import assert from 'node:assert/strict';
+import { after, before, test } from 'node:test';
+import { axeFindings, launch, openPage, settled, startServer } from './fixture.mjs';
+
+let server, browser;
+before(async () => {
+  [server, browser] = await Promise.all([startServer(), launch()]);
+});
+after(async () => {
+  await browser?.close();
+  await server?.stop();
+});
+
+const phone = { viewport: { width: 360, height: 740 }, hasTouch: true, isMobile: true, deviceScaleFactor: 1 };
+const open = async (options) => {
+  const view = await openPage(browser, `${server.url}/#/scene/torch`, options);
+  await settled(view);
+  return view;
+};
+
+test('? opens the keys at their top, and the tour goes through the page by keyboard', async () => {
+  for (const look of [{ viewport: { width: 1280, height: 800 } }, { viewport: { width: 360, height: 500 } }]) {
+    const view = await open({ ...look, bypassCSP: true });
+    await view.page.keyboard.press('?');
+    const dialog = view.page.locator('dialog.help');
+    await dialog.waitFor();
+    assert.equal(await dialog.evaluate((one) => one.scrollTop), 0);
+    assert.ok(await view.page.getByRole('heading', { name: 'Keys' }).isVisible());
+    assert.deepEqual(await axeFindings(view.page), []);
+    await view.page.getByRole('button', { name: 'Short tour' }).click();
+    const seen = [];
+    for (let i = 0; i < 4; ++i) {
+      const tour = view.page.locator('.tour');
+      await tour.waitFor();
+      seen.push(await tour.locator('h2').innerText());
+      assert.equal(await view.page.locator('[data-tour]').count(), 1);
+      const box = await tour.boundingBox();
+      assert.ok(box.x >= 0 && box.y >= 0 && box.x + box.width <= look.viewport.width && box.y + box.height <= look.viewport.height, JSON.stringify(box));
+      await view.page.keyboard.press('Enter'); // the next step has the focus
+    }
+    assert.deepEqual(seen, ['The image', 'The tools', 'The panel', 'Share']);
+    await view.page.locator('.tour').waitFor({ state: 'detached' });
+    assert.equal(await view.page.locator('[data-tour]').count(), 0);
+    await view.close();
+  }
+});
+
+test('on a wide screen every tool has a visible label, and a tooltip with its key', async () => {
+  const view = await open({ viewport: { width: 1440, height: 900 } });
+  const tools = await view.page.locator('.toolbar .tool').evaluateAll((all) => all.map((one) => [one.innerText.trim(), one.title]));
+  assert.ok(tools.length >= 10);
+  for (const [label, title] of tools) assert.ok(label.length > 1 && title.length > 1, `${label} / ${title}`);
+  for (const key of ['(Ctrl+Z)', '(R)', '(M)', '(L)', '(T)', '(?)']) assert.ok(tools.some(([, title]) => title.endsWith(key)), key);
+  assert.equal(await view.page.locator('.hud').count(), 0, 'the statistics are off');
+  await view.page.getByRole('button', { name: 'Times and counts' }).click();
+  assert.equal(await view.page.locator('.hud').count(), 1);
+  await view.close();
+});
+
+test('on a phone every target has 44 pixels, and panels are sheets over the image', async () => {
+  const view = await open({ ...phone, bypassCSP: true });
+  const stage = await view.page.locator('.stage').boundingBox();
+  for (const tab of [null, 'View', 'Inspect', 'Files']) {
+    if (tab) {
+      if (!(await view.page.locator('.panel').isVisible())) await view.page.getByRole('button', { name: 'Panel', exact: true }).tap();
+      await view.page.getByRole('tab', { name: tab }).tap();
+      await view.page.waitForTimeout(300);
+      const sheet = await view.page.locator('.panel').boundingBox();
+      assert.ok(Math.abs(sheet.y + sheet.height - 740) < 2 && sheet.width === 360, JSON.stringify(sheet));
+    }
+    const small = await view.page.locator('button:visible, a:visible, select:visible').evaluateAll((all) => all.filter((one) => {
+      const box = one.getBoundingClientRect();
+      return box.width > 0 && !one.classList.contains('skip') && (box.height < 43.5 || box.width < 31);
+    }).map((one) => `${one.getAttribute('aria-label') ?? one.textContent}: ${one.getBoundingClientRect().width} x ${one.getBoundingClientRect().height}`));
+    assert.deepEqual(small, [], `${tab}`);
+    assert.ok((await view.page.evaluate(() => document.documentElement.scrollWidth)) <= 360);
+  }
+  assert.deepEqual(await view.page.locator('.stage').boundingBox(), stage, 'the sheet does not resize the image');
+  assert.deepEqual(await axeFindings(view.page), []);
+  await view.close();
+});
+
+test('light mode under a finger turns the light, not the camera', async () => {
+  const view = await open(phone);
+  await view.page.getByRole('button', { name: /^Light mode/ }).tap();
+  const area = await view.page.locator('.stage').boundingBox(), client = await view.context.newCDPSession(view.page);
+  const [x, y] = [area.x + area.width / 2, area.y + area.height / 2];
+  const touch = (type, points) => client.send('Input.dispatchTouchEvent', { type, touchPoints: points.map(([px, py], id) => ({ x: px, y: py, id })) });
+  await touch('touchStart', [[x, y]]);
+  for (let i = 1; i <= 6; ++i) await touch('touchMove', [[x + 10 * i, y]]);
+  await touch('touchEnd', []);
+  await view.page.getByText(/Camera light: alpha/).waitFor();
+  await settled(view);
+  assert.equal(view.full().at(-1).azimuth, undefined);
+  assert.equal(view.full().at(-1).method, 'POST');
+  await view.close();
+});

@@ -1,0 +1,65 @@
+// The keys, and a short tour of the page.
+import { signal } from '@preact/signals';
+import { useEffect, useLayoutEffect, useRef, useState } from 'preact/hooks';
+import { helpKeys, tourSteps } from './help.ts';
+import { helpShown } from './sharing.ts';
+import { Tool } from './ui.tsx';
+
+/** The step on show; null: no tour. */
+const step = signal<number | null>(null);
+
+function Tour() {
+  const at = step.value ?? 0, last = tourSteps.length - 1, [selector, title, text] = tourSteps[at] ?? ['', '', ''];
+  const box = useRef<HTMLDivElement>(null), [place, setPlace] = useState({ left: 0, top: 0 });
+  useLayoutEffect(() => {
+    const target = document.querySelector(selector)?.getBoundingClientRect(), own = box.current?.getBoundingClientRect();
+    if (!target || !own) return;
+    const below = target.bottom + own.height + 16 < innerHeight;
+    setPlace({
+      left: Math.max(8, Math.min(innerWidth - own.width - 8, target.left)),
+      top: Math.max(8, below ? target.bottom + 8 : Math.min(innerHeight - own.height - 8, target.top + 8)),
+    });
+    document.querySelector(selector)?.setAttribute('data-tour', '');
+    box.current?.querySelector<HTMLElement>('.primary')?.focus();
+    return () => document.querySelector(selector)?.removeAttribute('data-tour');
+  }, [at]);
+  const end = (): void => void (step.value = null);
+  return (
+    <div class="tour" ref={box} role="dialog" aria-labelledby="tour-title" aria-describedby="tour-text" style={{ left: `${place.left}px`, top: `${place.top}px` }}
+      onKeyDown={(event) => event.key === 'Escape' && end()}>
+      <h2 id="tour-title">{title}</h2>
+      <p id="tour-text">{text}</p>
+      <div class="buttons">
+        <span class="note">{at + 1} of {last + 1}</span>
+        {at > 0 && <button type="button" class="button small" onClick={() => (step.value = at - 1)}>Back</button>}
+        <button type="button" class="button small primary" onClick={() => (at < last ? (step.value = at + 1) : end())}>{at < last ? 'Next' : 'Done'}</button>
+        {at < last && <button type="button" class="link" onClick={end}>End the tour</button>}
+      </div>
+    </div>
+  );
+}
+
+function Keys() {
+  const dialog = useRef<HTMLDialogElement>(null);
+  useEffect(() => dialog.current?.showModal(), []);
+  const close = (): void => void (helpShown.value = false);
+  return (
+    <dialog ref={dialog} class="help" aria-labelledby="help-title" onClose={close}>
+      <div class="help-head">
+        <h2 id="help-title">Keys</h2>
+        <button type="button" class="button small" onClick={() => {
+          close();
+          step.value = 0;
+        }}>Short tour</button>
+        <Tool icon="close" label="Close" onClick={close} />
+      </div>
+      <dl>
+        {helpKeys.map(([keys, text]) => (
+          <div key={keys}><dt>{keys.split(' ').map((key) => <kbd key={key}>{key}</kbd>)}</dt><dd>{text}</dd></div>
+        ))}
+      </dl>
+    </dialog>
+  );
+}
+
+export const Help = () => <>{helpShown.value && <Keys />}{step.value !== null && <Tour />}</>;

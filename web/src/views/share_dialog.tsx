@@ -1,0 +1,104 @@
+// Everything that leaves the page: links, images, a command. It shows what each holds.
+import { useEffect, useRef, useState } from 'preact/hooks';
+import { findingsOf, query, sentence } from '../api.ts';
+import { scenePlace } from '../router.ts';
+import { curlOf } from '../scene/curl.ts';
+import { storeEdited } from '../scene/store_edited.ts';
+import type { Viewer } from '../scene/viewer.ts';
+import { Icon } from './icons.tsx';
+import { saveBlob } from './save.ts';
+import { sharing } from './sharing.ts';
+import { Choice, copy, say } from './ui.tsx';
+
+const here = (): string => location.href.replace(/#.*$/, '');
+
+function Line({ label, text, what }: { label: string; text: string; what: string }) {
+  return (
+    <div class="share-line">
+      <label><span>{label}</span><input type="text" readOnly value={text} onFocus={(event) => event.currentTarget.select()} /></label>
+      <button type="button" class="button small" aria-label={`Copy: ${label}`} onClick={() => void copy(text, what)}>Copy</button>
+    </div>
+  );
+}
+
+const formats = [['apng', 'animated PNG'], ['gif', 'GIF'], ['animated-webp', 'animated WebP']] as const;
+
+function Animation({ viewer }: { viewer: Viewer }) {
+  const [format, setFormat] = useState<string>('apng');
+  const turntable = viewer.facts.value?.links.turntable;
+  if (!turntable || viewer.edited.value) return null;
+  const ending = format === 'apng' ? 'png' : format === 'gif' ? 'gif' : 'webp';
+  return (
+    <section class="section">
+      <h3>Animation</h3>
+      <p class="note">A round trip about the scene from this view, 48 frames of 480 × 360.</p>
+      <div class="share-row">
+        <Choice label="Format" value={format} choices={formats} onChange={setFormat} />
+        <a class="button" href={`${turntable}?${query({ ...viewer.turntableOptions(), frames: 48, fps: 16, format })}`}
+          download={`${(viewer.id ?? 'scene').replaceAll('/', '-')}-turntable.${ending}`}><Icon name="download" />Download</a>
+      </div>
+    </section>
+  );
+}
+
+/** Who wants a link to edits stores them first: the link of the scene would be without them. */
+function Unstored({ viewer }: { viewer: Viewer }) {
+  const [busy, setBusy] = useState(false);
+  const store = async (): Promise<void> => {
+    setBusy(true);
+    await storeEdited(viewer);
+    setBusy(false);
+  };
+  return (
+    <div class="share-warning" role="note">
+      <p>{viewer.id === null ? 'This scene is in this browser only: there is no link to it yet.'
+        : 'Your edits are in this browser only. Links show the scene as it is stored, without them.'}</p>
+      <button type="button" class="button primary" disabled={busy} onClick={() => void store()}>{busy ? 'Storing…' : 'Store them and get a link'}</button>
+    </div>
+  );
+}
+
+export function ShareDialog({ viewer }: { viewer: Viewer }) {
+  const dialog = useRef<HTMLDialogElement>(null);
+  useEffect(() => dialog.current?.showModal(), []);
+  const { id } = viewer, facts = viewer.facts.value, title = facts?.title || 'Scene', unstored = id === null || viewer.edited.value;
+  const own = facts?.upload ? `It was uploaded${facts.expires ? ` and is kept until ${new Date(facts.expires).toLocaleDateString()}` : ''}; whoever has its link sees it.` : '';
+  const left = [viewer.quality.value !== 'standard' && 'the quality that is chosen', viewer.lightMode.value && 'light mode', 'the open panel'].filter(Boolean).join(', ');
+  const saveImage = async (type: 'image/png' | 'image/webp'): Promise<void> => {
+    try {
+      const blob = await viewer.imageAs(type === 'image/png' ? 'png' : 'webp');
+      if (blob) saveBlob(blob, `${(id ?? 'scene').replaceAll('/', '-').slice(0, 60)}.${type === 'image/png' ? 'png' : 'webp'}`);
+      else say('There is no full picture yet.');
+    } catch (fault) {
+      say(findingsOf(fault).map((one) => sentence(one)).join(' '));
+    }
+  };
+  return (
+    <dialog ref={dialog} class="share" aria-labelledby="share-title" onClose={() => (sharing.value = false)}>
+      <h2 id="share-title">Share “{title}”</h2>
+      {unstored && <Unstored viewer={viewer} />}
+      {id !== null && (
+        <section class="section">
+          <h3>Links</h3>
+          <Line label="This view" text={here() + viewer.link()} what="Link" />
+          <Line label="The scene" text={here() + scenePlace(id)} what="Link" />
+          <p class="note">{own} The link of this view holds camera, time and display options. Not in it: {left}{viewer.edited.value ? ', your edits' : ''}.</p>
+        </section>
+      )}
+      <section class="section">
+        <h3>Image</h3>
+        <div class="share-row">
+          <button type="button" class="button" onClick={() => void saveImage('image/png')}><Icon name="download" />PNG, exact</button>
+          <button type="button" class="button" onClick={() => void saveImage('image/webp')}><Icon name="download" />WebP, small</button>
+        </div>
+      </section>
+      <Animation viewer={viewer} />
+      <section class="section">
+        <h3>Command</h3>
+        <Line label="curl" text={curlOf(viewer)} what="Command" />
+        {viewer.edited.value && <p class="note">It sends scene.xml from the folder it is run in: download the XML first.</p>}
+      </section>
+      <button type="button" class="button" onClick={() => (sharing.value = false)}>Close</button>
+    </dialog>
+  );
+}

@@ -41,7 +41,7 @@ write_document(errors api/errors.md)
 write_document(schema api/schema.json)
 
 find_program(GZIP gzip REQUIRED)
-file(GLOB files ${PAGE}/assets/* ${PAGE}/index.html)
+file(GLOB files ${PAGE}/assets/* ${PAGE}/index.html ${PAGE}/embed.html)
 foreach(file ${files})
     execute_process(COMMAND ${GZIP} -9 -n -k ${file} COMMAND_ERROR_IS_FATAL ANY)
     file(SIZE ${file} plain)

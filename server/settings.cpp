@@ -87,8 +87,10 @@ std::vector<Setting> makeSettings() {
              "names that clients may use for the service, comma-separated; * any; default: "
              "loopback names and --host where that is loopback, else any",
              "HOSTS", FIELD(allowedHosts)),
-        text("cors", "origin whose pages may call the service, or *; default none", "ORIGIN",
-             FIELD(corsOrigin)),
+        text(
+            "cors",
+            "origin whose pages may call the service and show /embed in frames, or *; default none",
+            "ORIGIN", FIELD(corsOrigin)),
         text("base-path", "what stands before all paths, behind a proxy: /farol; default nothing",
              "PATH", FIELD(basePath)),
         text("data", "folder to keep uploaded scenes in; default: in memory, until the end", "DIR",

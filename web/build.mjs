@@ -1,5 +1,5 @@
 // Builds the page into web/page (or the folder named): node build.mjs [FOLDER]
-// index.html names its script and style by their hashed names in assets. The same sources and packages
+// index.html and embed.html name their script and style by their hashed names in assets. The same sources and packages
 // give the same bytes. The packages are those of build/web (scripts/page).
 import { createHash } from 'node:crypto';
 import { mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
@@ -42,11 +42,11 @@ write(iconPath, icon);
 const entry = Object.entries(metafile.outputs).find(([, one]) => one.entryPoint?.endsWith('src/main.tsx'));
 // Relative, so that the page works below any path.
 const named = (path) => join(here, path).slice(join(out, '/').length);
-const html = readFileSync(join(here, 'index.html'), 'utf8')
-  .replace('{{icon}}', iconPath)
-  .replace('{{style}}', named(entry[1].cssBundle))
-  .replace('{{script}}', named(entry[0]));
-write('index.html', html);
+for (const name of ['index.html', 'embed.html'])
+  write(name, readFileSync(join(here, name), 'utf8')
+    .replace('{{icon}}', iconPath)
+    .replace('{{style}}', named(entry[1].cssBundle))
+    .replace('{{script}}', named(entry[0])));
 
 // What a first visit loads, and all there is.
 const size = (path) => gzipSync(readFileSync(join(out, path))).length;

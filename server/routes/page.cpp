@@ -20,8 +20,7 @@ namespace {
 constexpr const char* kPagePolicy =
     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' "
     "blob: data:; "
-    "connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors "
-    "'none'";
+    "connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors ";
 
 std::optional<std::string_view> embedded(const std::string& name) {
     for (const EmbeddedFile& file : webFiles())
@@ -41,7 +40,9 @@ std::string typeOf(const std::string& name) {
     return "application/octet-stream";
 }
 
-http::Response embeddedFile(const Call& call, const std::string& name, bool immutable) {
+/// `ancestors`: the pages that may show this one in a frame, as in frame-ancestors.
+http::Response embeddedFile(const Call& call, const std::string& name, bool immutable,
+                            const std::string& ancestors = "'none'") {
     refuseParameters(call);
     const auto plain = embedded(name);
     if (!plain || name.ends_with(".gz"))
@@ -53,7 +54,7 @@ http::Response embeddedFile(const Call& call, const std::string& name, bool immu
     http::Response response;
     const std::string tag = entityTag({bytes});
     response.set("ETag", tag);
-    response.set("Content-Security-Policy", kPagePolicy);
+    response.set("Content-Security-Policy", kPagePolicy + ancestors);
     if (packed) response.set("Vary", "Accept-Encoding");
     if (immutable) response.set("Cache-Control", "public, max-age=31536000, immutable");
     if (matchesTag(call.request.header("if-none-match"), tag)) {
@@ -70,6 +71,15 @@ http::Response embeddedFile(const Call& call, const std::string& name, bool immu
 
 http::Response getPage(Context&, const Call& call) {
     return embeddedFile(call, embedded("index.html") ? "index.html" : "plain.html", false);
+}
+
+http::Response getEmbed(Context& context, const Call& call) {
+    // Written into a header: the setting is an origin or "*" (SiteGuard). "null" is no frame's
+    // ancestor.
+    const std::string& origin = context.options.corsOrigin;
+    const bool isNamed = !origin.empty() && origin != "null";
+    return embeddedFile(call, embedded("embed.html") ? "embed.html" : "plain.html", false,
+                        isNamed ? "'self' " + origin : "'self'");
 }
 
 http::Response getPlainPage(Context&, const Call& call) {

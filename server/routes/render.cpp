@@ -2,6 +2,7 @@
 #include "worker/tasks/render.h"
 
 #include "server/etag.h"
+#include "server/messages.h"
 #include "server/request/media.h"
 #include "server/routes/drawing.h"
 #include "server/routes/uploads.h"
@@ -9,9 +10,40 @@
 namespace farol::server {
 namespace {
 
+ParameterRules imageRules(const http::Fields& preset) {
+    ParameterRules rules{true, true, kDrawnNames, preset};
+    rules.ownNames.emplace_back("superseded");
+    return rules;
+}
+
+bool isEmptyWhenSuperseded(const Parameters& wanted) {
+    const std::string value = wanted.ownValue("superseded", "problem");
+    if (value != "empty" && value != "problem")
+        throw Error(message<"option.range/words">("name"_arg = "superseded", "value"_arg = value,
+                                                  "known"_arg = "empty or problem"),
+                    {}, "superseded");
+    return value == "empty";
+}
+
+/// Returns what `draw` returns. With `isEmpty`, an image that a newer one of its session overtook
+/// is 204 in place of a problem: browsers log every status from 400 on as an error.
+template <typename Draw>
+http::Response orEmpty(bool isEmpty, const Draw& draw) {
+    try {
+        return draw();
+    } catch (const worker::Busy& busy) {
+        if (!isEmpty || busy.code() != "busy.superseded") throw;
+        http::Response response;
+        response.status = 204;
+        response.set("Cache-Control", "no-store");
+        return response;
+    }
+}
+
 http::Response drawServed(Context& context, const Call& call, const http::Fields& preset) {
-    Parameters wanted = readParameters(call.request.query, {true, true, kDrawnNames, preset});
+    Parameters wanted = readParameters(call.request.query, imageRules(preset));
     checkOnError(wanted);
+    const bool isEmpty = isEmptyWhenSuperseded(wanted);
     const worker::Turn turn = turnOf(wanted);
     ServedScene scene = context.scenes.find(call.parameter);
     chooseFormat(wanted, call.request.header("accept"));
@@ -25,13 +57,16 @@ http::Response drawServed(Context& context, const Call& call, const http::Fields
     } else if (auto kept = context.pictures.find(tag)) {
         response = std::move(*kept);
     } else {
-        context.backend.expectRoom({tag, turn});
-        render::Job job = context.scenes.jobOf(scene);
-        job.options = wanted.picture;
-        job.strict = wanted.strict;
-        tag = tagOf();
-        response =
-            drawn(context, context.backend.run<worker::RenderTask>({std::move(job)}, {tag, turn}));
+        response = orEmpty(isEmpty, [&] {
+            context.backend.expectRoom({tag, turn});
+            render::Job job = context.scenes.jobOf(scene);
+            job.options = wanted.picture;
+            job.strict = wanted.strict;
+            tag = tagOf();
+            return drawn(context,
+                         context.backend.run<worker::RenderTask>({std::move(job)}, {tag, turn}));
+        });
+        if (response.status == 204) return response;
         context.pictures.put(tag, response);
     }
     response.set("ETag", tag);
@@ -42,7 +77,7 @@ http::Response drawServed(Context& context, const Call& call, const http::Fields
 }  // namespace
 
 http::Response postRender(Context& context, const Call& call) {
-    ParameterRules rules{true, true, kDrawnNames, {}};
+    ParameterRules rules = imageRules({});
     rules.ownNames.emplace_back("base");
     // An error in the query is reported before the body is read.
     const Parameters asked = readParameters(call.request.query, rules);
@@ -50,11 +85,14 @@ http::Response postRender(Context& context, const Call& call) {
     Upload upload = takeUpload(context, call, asked.ownValue("base"));
     Parameters wanted = readParameters(call.request.query, rules, upload.optionsJson);
     checkOnError(wanted);
+    const bool isEmpty = isEmptyWhenSuperseded(wanted);
     chooseFormat(wanted, call.request.header("accept"));
     upload.job.options = wanted.picture;
     upload.job.strict = wanted.strict;
-    http::Response response = drawn(
-        context, context.backend.run<worker::RenderTask>({std::move(upload.job)}, {"", turn}));
+    http::Response response = orEmpty(isEmpty, [&] {
+        return drawn(context,
+                     context.backend.run<worker::RenderTask>({std::move(upload.job)}, {"", turn}));
+    });
     response.set("Vary", "Accept");
     response.set("Cache-Control", "no-store");
     return response;

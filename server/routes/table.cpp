@@ -4,6 +4,7 @@
 // http::Response HANDLER(Context&, const Call&), and puts it into the table.
 #define FAROL_ROUTES(ROUTE)                                                     \
     ROUTE("GET", "/", getPage, kPlain)                                          \
+    ROUTE("GET", "/embed", getEmbed, kPlain)                                    \
     ROUTE("GET", "/plain", getPlainPage, kPlain)                                \
     ROUTE("GET", "/assets/{file}", getAsset, kPlain)                            \
     ROUTE("GET", "/openapi.yaml", getOpenApi, kPlain)                           \

@@ -1,7 +1,9 @@
 // Pages of other origins (Fetch Standard, "CORS protocol").
 #include <catch2/catch.hpp>
+#include <map>
 
 #include "fixture.h"
+#include "worker/messages.h"
 
 using namespace farol;
 using namespace farol::test;
@@ -52,4 +54,54 @@ TEST_CASE("pages of another origin may call where that is wanted, and only there
     const std::string exposed = refused.header("access-control-expose-headers");
     for (const char* name : {"ETag", "Location", "Server-Timing", "X-Farol-Stats", "Retry-After"})
         CHECK(exposed.find(name) != std::string::npos);
+}
+
+TEST_CASE("only /embed may be framed, by the service itself and the origin of --cors") {
+    const auto policyOf = [](const FakeServer& server, const char* path) {
+        const Answer answer = get(server.port(), path);
+        CHECK(answer.status == 200);
+        const std::string policy = answer.header("content-security-policy");
+        return policy.substr(policy.find("frame-ancestors"));
+    };
+    for (const auto& [origin, ancestors] : std::map<std::string, std::string>{
+             {"", "frame-ancestors 'self'"},
+             {"null", "frame-ancestors 'self'"},
+             {"*", "frame-ancestors 'self' *"},
+             {"https://moodle.example", "frame-ancestors 'self' https://moodle.example"}}) {
+        INFO(origin);
+        server::ServiceOptions options;
+        options.corsOrigin = origin;
+        FakeServer server(options);
+        CHECK(policyOf(server, "/embed") == ancestors);
+        for (const char* path : {"/", "/plain"})
+            CHECK(policyOf(server, path) == "frame-ancestors 'none'");
+        CHECK(get(server.port(), "/embed?x=1").status == 400);
+    }
+}
+
+TEST_CASE("with superseded=empty a frame that a newer one overtook is empty, not an error") {
+    const TemporaryFolder folder("http-superseded");
+    folder.write("box.xml", "<world/>");
+    server::ServiceOptions options;
+    options.scenesDir = folder.path();
+    FakeServer server(options);
+    server.backend.onRender = [](const render::Job&) -> render::Picture {
+        throw worker::Busy(worker::message<"busy.superseded">(), 0);
+    };
+    const std::string image = "/v1/scenes/box/image?session=a&seq=1";
+    CHECK(get(server.port(), image).status == 409);
+    CHECK(get(server.port(), image + "&superseded=problem").status == 409);
+    const Answer empty = get(server.port(), image + "&superseded=empty");
+    CHECK(empty.status == 204);
+    CHECK(empty.body.empty());
+    CHECK(empty.header("cache-control") == "no-store");
+    CHECK(post(server.port(), "/v1/render?session=a&seq=1&superseded=empty", "<world/>",
+               "application/xml")
+              .status == 204);
+    CHECK(get(server.port(), image + "&superseded=quietly").status == 400);
+    // What is wrong otherwise stays an error.
+    server.backend.onRender = [](const render::Job&) -> render::Picture {
+        throw worker::Busy(worker::message<"busy.queue">(), 1);
+    };
+    CHECK(get(server.port(), image + "&superseded=empty").status == 503);
 }

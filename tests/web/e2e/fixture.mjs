@@ -62,10 +62,10 @@ export function startProxy(target, delayOf) {
 }
 
 /** FAROL_PAGE=web/page: the page comes from that folder, so that a change of it needs no build of the program. */
-const pageFrom = (context, folder) => context.route((url) => /^\/(assets\/.*)?$/.test(url.pathname), async (route) => {
-  const name = new URL(route.request().url()).pathname.slice(1) || 'index.html', file = join(folder, name);
+const pageFrom = (context, folder) => context.route((url) => /^\/(embed|assets\/.*)?$/.test(url.pathname), async (route) => {
+  const path = new URL(route.request().url()).pathname.slice(1), name = path === '' ? 'index.html' : path === 'embed' ? 'embed.html' : path, file = join(folder, name);
   if (!existsSync(file)) return route.continue();
-  const policy = (await fetch(new URL('/', route.request().url()))).headers.get('content-security-policy');
+  const policy = (await fetch(new URL(path === 'embed' ? '/embed' : '/', route.request().url()))).headers.get('content-security-policy');
   const type = { html: 'text/html', js: 'text/javascript', css: 'text/css', svg: 'image/svg+xml' }[name.split('.').pop()];
   return route.fulfill({ path: file, headers: { 'Content-Type': type, 'Content-Security-Policy': policy } }).catch(() => undefined); // closed meanwhile
 });

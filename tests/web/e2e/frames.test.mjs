@@ -95,3 +95,24 @@ test('the pages work under their policy, compressed and kept by browsers', async
   await plain.page.waitForFunction(() => document.getElementById('picture').naturalWidth > 0, null, { timeout: 60000 });
   await plain.close();
 });
+
+test('frames that a newer one overtakes leave no error in the console', async () => {
+  const busy = await startServer({ workers: 1 });
+  const view = await openPage(browser, `${busy.url}/#/scene/torch`, { viewport: { width: 1200, height: 800 } });
+  const errors = [], statuses = [];
+  view.page.on('console', (message) => message.type() === 'error' && errors.push(message.text()));
+  view.page.on('response', (response) => /\/image\?/.test(response.url()) && statuses.push(response.status()));
+  await settled(view);
+  const area = await view.page.locator('.stage').boundingBox();
+  await view.page.mouse.move(area.x + 200, area.y + 200);
+  for (let round = 0; round < 8 && !statuses.includes(204); ++round) {
+    await view.page.mouse.down();
+    for (let i = 1; i <= 25; ++i) await view.page.mouse.move(area.x + 200 + 8 * i, area.y + 200);
+    await view.page.mouse.up();
+    await settled(view);
+  }
+  assert.ok(statuses.includes(204), `none was overtaken: ${statuses}`);
+  assert.deepEqual(errors, []);
+  await view.close();
+  await busy.stop();
+});

@@ -38,8 +38,8 @@ export abstract class EditedScene {
   private draftTimer: ReturnType<typeof setTimeout> | undefined;
   private besides: Promise<KeptDraft | null> = Promise.resolve(null);
 
-  /** `loose`: a document and files of this browser, which the server does not keep. */
-  constructor(readonly id: string | null, readonly loose: Loose | null) {}
+  /** `loose`: a document and files of this browser, which the server does not keep. `isRemembered`: with drafts. */
+  constructor(readonly id: string | null, readonly loose: Loose | null, private readonly isRemembered: boolean) {}
 
   /** Something is to be drawn anew. */
   protected abstract redraw(how: Editing): void;
@@ -50,7 +50,7 @@ export abstract class EditedScene {
 
   /** The draft of an earlier visit; its files and history come with `restore`. */
   protected beginDraft(): Draft | null {
-    if (this.loose) return null;
+    if (this.loose || !this.isRemembered) return null;
     this.besides = kept<KeptDraft>(this.keptKey);
     return loadDraft(this.id);
   }
@@ -179,7 +179,7 @@ export abstract class EditedScene {
   flushDraft(): void {
     clearTimeout(this.draftTimer);
     const text = this.text.value;
-    if (text === null) return;
+    if (text === null || !this.isRemembered) return;
     const base = hashText(this.original.value ?? ''), history = this.history.write();
     const isSaved = saveDraft(this.id, this.edited.value ? { text, base } : null);
     const refuse = (): void => void (this.notice.value = 'This browser keeps no edits: copy the XML before you leave.');

@@ -66,9 +66,10 @@ export async function fetchPicture(origin: Origin, options: Options, signal?: Ab
   if (origin.text !== null || origin.id === null)
     Object.assign(init, { method: 'POST' }, bodyOf(origin));
   try {
-    return await request(pictureUrl(origin, options), init);
+    const response = await request(pictureUrl(origin, options), init);
+    return response.status === 204 ? undefined : response;
   } catch (fault) {
-    if (fault instanceof Problem && fault.superseded) return undefined;
+    if (fault instanceof Problem && fault.superseded) return undefined; // of an older server
     throw fault;
   }
 }

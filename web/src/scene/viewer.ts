@@ -65,8 +65,8 @@ export class Viewer extends EditedScene {
   private openTimer: ReturnType<typeof setTimeout> | undefined;
   private known: { text: string; files: FileChanges; facts: (SceneFacts & Partial<ModelPlaces>) | null; findings: readonly Finding[] } | null = null; // of the edited document
 
-  constructor(id: string | null, loose: Loose | null = null) {
-    super(id, loose);
+  constructor(id: string | null, loose: Loose | null = null, { isRemembered = true } = {}) {
+    super(id, loose, isRemembered);
     this.clock = new SceneClock(() => this.moved(), () => {
       this.loop.hold(this.turning.value);
       this.loop.settle();
@@ -78,7 +78,7 @@ export class Viewer extends EditedScene {
         this.asked = `${options['width']} ${options['height']}`;
         if (pace) Object.assign(options, { scale: pace.scale, aa: 1, error: 1, format: pace.format, quality: pace.quality });
         else Object.assign(options, this.restForm());
-        const response = await fetchPicture(this.origin(), { ...options, session: this.session, seq }, signal);
+        const response = await fetchPicture(this.origin(), { ...options, session: this.session, seq, superseded: 'empty' }, signal);
         if (!response) return undefined;
         const picture = await decodeFrame(response, options);
         return { picture, serverTiming: response.headers.get('Server-Timing'), wire: takeWireTime(response.url) };

@@ -84,10 +84,15 @@ function UploadNote() {
   );
 }
 
+/** This is embed.html, which other pages may show in a frame. */
+const isEmbedded = 'embed' in document.body.dataset;
+const EmbedPage = lazyView(() => import('./embed_page.tsx').then((module) => module.EmbedPage), 'the scene');
+
 export function App() {
   useDrops();
   const where = place.value;
   const id = where.page === 'scene' ? where.id : null;
+  if (isEmbedded) return where.page === 'scene' ? <EmbedPage key={where.id} id={where.id} view={where.view} /> : <GonePage />;
   return (
     <>
       <a class="skip" href="#main" onClick={(event) => {

@@ -19,5 +19,5 @@ export const tourSteps: readonly (readonly [string, string, string])[] = [
   ['.stage', 'The image', 'Drag to go round the scene, turn the wheel to come nearer. A click on a model selects its line in the XML.'],
   ['.toolbar', 'The tools', 'Undo and redo, the scene’s own camera, walking, a light that moves with you, and the quality of the image at rest.'],
   ['.tool.worded[aria-pressed]', 'The panel', 'Display options, colours and lights, the files of the scene, and its XML with completion and error marks.'],
-  ['.toolbar .tool.worded', 'Share', 'Links, images, animations and a command.'],
+  ['.toolbar .tool.worded', 'Share', 'Links, a frame for another page, images, animations and a command.'],
 ];

@@ -1,4 +1,4 @@
-// Everything that leaves the page: links, images, a command. It shows what each holds.
+// Everything that leaves the page: links, a frame for other pages, images, a command. It shows what each holds.
 import { useEffect, useRef, useState } from 'preact/hooks';
 import { findingsOf, query, sentence } from '../api.ts';
 import { scenePlace } from '../router.ts';
@@ -11,6 +11,11 @@ import { sharing } from './sharing.ts';
 import { Choice, copy, say } from './ui.tsx';
 
 const here = (): string => location.href.replace(/#.*$/, '');
+const escapeAttribute = (text: string): string => text.replaceAll('&', '&amp;').replaceAll('"', '&quot;').replaceAll('<', '&lt;');
+
+/** The frame's address: the view of the link, on the page that other pages may frame. */
+export const embedCode = (base: string, link: string, title: string): string =>
+  `<iframe src="${escapeAttribute(`${base.replace(/[^/]*$/, '')}embed${link}`)}" title="${escapeAttribute(title)}" width="640" height="480" style="border:0" loading="lazy"></iframe>`;
 
 function Line({ label, text, what }: { label: string; text: string; what: string }) {
   return (
@@ -52,7 +57,7 @@ function Unstored({ viewer }: { viewer: Viewer }) {
   return (
     <div class="share-warning" role="note">
       <p>{viewer.id === null ? 'This scene is in this browser only: there is no link to it yet.'
-        : 'Your edits are in this browser only. Links show the scene as it is stored, without them.'}</p>
+        : 'Your edits are in this browser only. Links and frames show the scene as it is stored, without them.'}</p>
       <button type="button" class="button primary" disabled={busy} onClick={() => void store()}>{busy ? 'Storing…' : 'Store them and get a link'}</button>
     </div>
   );
@@ -83,6 +88,13 @@ export function ShareDialog({ viewer }: { viewer: Viewer }) {
           <Line label="This view" text={here() + viewer.link()} what="Link" />
           <Line label="The scene" text={here() + scenePlace(id)} what="Link" />
           <p class="note">{own} The link of this view holds camera, time and display options. Not in it: {left}{viewer.edited.value ? ', your edits' : ''}.</p>
+        </section>
+      )}
+      {id !== null && (
+        <section class="section">
+          <h3>In another page</h3>
+          <Line label="Frame" text={embedCode(here(), viewer.link(), title)} what="Frame" />
+          <p class="note">The frame can be orbited. A page on another server shows it only if this server was started with --cors and its origin.</p>
         </section>
       )}
       <section class="section">

@@ -8,5 +8,6 @@ import './style/panel.css';
 import '../../grade/report/view.css';
 import './style/grade.css';
 import './style/assignment.css';
+import './style/touch.css';
 
 void firstWords().then(() => render(<App />, document.getElementById('app') as HTMLElement));

@@ -13,8 +13,8 @@ import { TokenDialog } from './token_dialog.tsx';
 import { ViewerPage } from './viewer_page.tsx';
 import { chooseLanguage, language, languages, t } from '../words.ts';
 
-const AssignmentPage = lazyView(() => import('./assignment_page.tsx').then((module) => module.AssignmentPage), "the assignment's page");
-const GradePage = lazyView(() => import('./grade_page.tsx').then((module) => module.GradePage), 'the grade page');
+const AssignmentPage = lazyView(() => import('./assignment_page.tsx').then((module) => module.AssignmentPage));
+const GradePage = lazyView(() => import('./grade_page.tsx').then((module) => module.GradePage));
 
 function useDrops(): void {
   useEffect(() => {
@@ -86,7 +86,7 @@ function UploadNote() {
 
 /** This is embed.html, which other pages may show in a frame. */
 const isEmbedded = 'embed' in document.body.dataset;
-const EmbedPage = lazyView(() => import('./embed_page.tsx').then((module) => module.EmbedPage), 'the scene');
+const EmbedPage = lazyView(() => import('./embed_page.tsx').then((module) => module.EmbedPage));
 
 export function App() {
   useDrops();

@@ -4,6 +4,7 @@ import { useEffect, useLayoutEffect, useRef, useState } from 'preact/hooks';
 import { helpKeys, tourSteps } from './help.ts';
 import { helpShown } from './sharing.ts';
 import { Tool } from './ui.tsx';
+import { t } from '../words.ts';
 
 /** The step on show; null: no tour. */
 const step = signal<number | null>(null);
@@ -27,13 +28,13 @@ function Tour() {
   return (
     <div class="tour" ref={box} role="dialog" aria-labelledby="tour-title" aria-describedby="tour-text" style={{ left: `${place.left}px`, top: `${place.top}px` }}
       onKeyDown={(event) => event.key === 'Escape' && end()}>
-      <h2 id="tour-title">{title}</h2>
-      <p id="tour-text">{text}</p>
+      <h2 id="tour-title">{t(title)}</h2>
+      <p id="tour-text">{t(text)}</p>
       <div class="buttons">
-        <span class="note">{at + 1} of {last + 1}</span>
-        {at > 0 && <button type="button" class="button small" onClick={() => (step.value = at - 1)}>Back</button>}
-        <button type="button" class="button small primary" onClick={() => (at < last ? (step.value = at + 1) : end())}>{at < last ? 'Next' : 'Done'}</button>
-        {at < last && <button type="button" class="link" onClick={end}>End the tour</button>}
+        <span class="note">{t('{step} of {steps}', { step: at + 1, steps: last + 1 })}</span>
+        {at > 0 && <button type="button" class="button small" onClick={() => (step.value = at - 1)}>{t('Back')}</button>}
+        <button type="button" class="button small primary" onClick={() => (at < last ? (step.value = at + 1) : end())}>{at < last ? t('Next') : t('Done')}</button>
+        {at < last && <button type="button" class="link" onClick={end}>{t('End the tour')}</button>}
       </div>
     </div>
   );
@@ -46,16 +47,16 @@ function Keys() {
   return (
     <dialog ref={dialog} class="help" aria-labelledby="help-title" onClose={close}>
       <div class="help-head">
-        <h2 id="help-title">Keys</h2>
+        <h2 id="help-title">{t('Keys')}</h2>
         <button type="button" class="button small" onClick={() => {
           close();
           step.value = 0;
-        }}>Short tour</button>
-        <Tool icon="close" label="Close" onClick={close} />
+        }}>{t('Short tour')}</button>
+        <Tool icon="close" label={t('Close')} onClick={close} />
       </div>
       <dl>
         {helpKeys.map(([keys, text]) => (
-          <div key={keys}><dt>{keys.split(' ').map((key) => <kbd key={key}>{key}</kbd>)}</dt><dd>{text}</dd></div>
+          <div key={keys}><dt>{keys.split(' ').map((key) => <kbd key={key}>{key}</kbd>)}</dt><dd>{t(text)}</dd></div>
         ))}
       </dl>
     </dialog>

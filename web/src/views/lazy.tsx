@@ -1,8 +1,9 @@
 // Views that are loaded when they are first shown.
 import type { ComponentType, FunctionComponent } from 'preact';
 import { useEffect, useState } from 'preact/hooks';
+import { t } from '../words.ts';
 
-export function lazyView<Props extends object>(load: () => Promise<ComponentType<Props>>, what: string): FunctionComponent<Props> {
+export function lazyView<Props extends object>(load: () => Promise<ComponentType<Props>>): FunctionComponent<Props> {
   let loaded: ComponentType<Props> | null = null;
   return function Lazy(props) {
     const [state, setState] = useState<'loading' | 'ready' | 'failed'>(loaded ? 'ready' : 'loading');
@@ -17,6 +18,6 @@ export function lazyView<Props extends object>(load: () => Promise<ComponentType
       const View = loaded as ComponentType<object>;
       return <View {...props} />;
     }
-    return <p class="note">{state === 'failed' ? `The server did not send ${what}. Load the page again.` : 'Loading…'}</p>;
+    return <p class="note">{state === 'failed' ? t('The server did not send this part of the page. Load the page again.') : t('Loading…')}</p>;
   };
 }

@@ -9,6 +9,7 @@ import { Icon } from './icons.tsx';
 import { saveBlob } from './save.ts';
 import { sharing } from './sharing.ts';
 import { Choice, copy, say } from './ui.tsx';
+import { language, msg, t } from '../words.ts';
 
 const here = (): string => location.href.replace(/#.*$/, '');
 const escapeAttribute = (text: string): string => text.replaceAll('&', '&amp;').replaceAll('"', '&quot;').replaceAll('<', '&lt;');
@@ -17,16 +18,16 @@ const escapeAttribute = (text: string): string => text.replaceAll('&', '&amp;').
 export const embedCode = (base: string, link: string, title: string): string =>
   `<iframe src="${escapeAttribute(`${base.replace(/[^/]*$/, '')}embed${link}`)}" title="${escapeAttribute(title)}" width="640" height="480" style="border:0" loading="lazy"></iframe>`;
 
-function Line({ label, text, what }: { label: string; text: string; what: string }) {
+function Line({ label, text, done }: { label: string; text: string; done: string }) {
   return (
     <div class="share-line">
       <label><span>{label}</span><input type="text" readOnly value={text} onFocus={(event) => event.currentTarget.select()} /></label>
-      <button type="button" class="button small" aria-label={`Copy: ${label}`} onClick={() => void copy(text, what)}>Copy</button>
+      <button type="button" class="button small" aria-label={t('Copy: {what}', { what: label })} onClick={() => void copy(text, done)}>{t('Copy')}</button>
     </div>
   );
 }
 
-const formats = [['apng', 'animated PNG'], ['gif', 'GIF'], ['animated-webp', 'animated WebP']] as const;
+const formats = [['apng', msg('animated PNG')], ['gif', msg('GIF')], ['animated-webp', msg('animated WebP')]] as const;
 
 function Animation({ viewer }: { viewer: Viewer }) {
   const [format, setFormat] = useState<string>('apng');
@@ -35,12 +36,12 @@ function Animation({ viewer }: { viewer: Viewer }) {
   const ending = format === 'apng' ? 'png' : format === 'gif' ? 'gif' : 'webp';
   return (
     <section class="section">
-      <h3>Animation</h3>
-      <p class="note">A round trip about the scene from this view, 48 frames of 480 × 360.</p>
+      <h3>{t('Animation')}</h3>
+      <p class="note">{t('A round trip about the scene from this view, 48 frames of 480 × 360.')}</p>
       <div class="share-row">
-        <Choice label="Format" value={format} choices={formats} onChange={setFormat} />
+        <Choice label={t('Format')} value={format} choices={formats.map(([key, name]) => [key, t(name)] as const)} onChange={setFormat} />
         <a class="button" href={`${turntable}?${query({ ...viewer.turntableOptions(), frames: 48, fps: 16, format })}`}
-          download={`${(viewer.id ?? 'scene').replaceAll('/', '-')}-turntable.${ending}`}><Icon name="download" />Download</a>
+          download={`${(viewer.id ?? 'scene').replaceAll('/', '-')}-turntable.${ending}`}><Icon name="download" />{t('Download')}</a>
       </div>
     </section>
   );
@@ -56,9 +57,9 @@ function Unstored({ viewer }: { viewer: Viewer }) {
   };
   return (
     <div class="share-warning" role="note">
-      <p>{viewer.id === null ? 'This scene is in this browser only: there is no link to it yet.'
-        : 'Your edits are in this browser only. Links and frames show the scene as it is stored, without them.'}</p>
-      <button type="button" class="button primary" disabled={busy} onClick={() => void store()}>{busy ? 'Storing…' : 'Store them and get a link'}</button>
+      <p>{viewer.id === null ? t('This scene is in this browser only: there is no link to it yet.')
+        : t('Your edits are in this browser only. Links and frames show the scene as it is stored, without them.')}</p>
+      <button type="button" class="button primary" disabled={busy} onClick={() => void store()}>{busy ? t('Storing…') : t('Store them and get a link')}</button>
     </div>
   );
 }
@@ -66,51 +67,56 @@ function Unstored({ viewer }: { viewer: Viewer }) {
 export function ShareDialog({ viewer }: { viewer: Viewer }) {
   const dialog = useRef<HTMLDialogElement>(null);
   useEffect(() => dialog.current?.showModal(), []);
-  const { id } = viewer, facts = viewer.facts.value, title = facts?.title || 'Scene', unstored = id === null || viewer.edited.value;
-  const own = facts?.upload ? `It was uploaded${facts.expires ? ` and is kept until ${new Date(facts.expires).toLocaleDateString()}` : ''}; whoever has its link sees it.` : '';
-  const left = [viewer.quality.value !== 'standard' && 'the quality that is chosen', viewer.lightMode.value && 'light mode', 'the open panel'].filter(Boolean).join(', ');
+  const { id } = viewer, facts = viewer.facts.value, title = facts?.title || t('Scene'), unstored = id === null || viewer.edited.value;
+  const until = facts?.expires && new Date(facts.expires).toLocaleDateString(language.value);
+  const own = !facts?.upload ? '' : until ? t('It was uploaded and is kept until {date}; everyone who has its link sees it.', { date: until })
+    : t('It was uploaded; everyone who has its link sees it.');
+  const left = [
+    viewer.quality.value !== 'standard' && t('the quality that is chosen'), viewer.lightMode.value && t('light mode'), t('the open panel'),
+    viewer.edited.value && t('your edits'),
+  ].filter(Boolean).join(', ');
   const saveImage = async (type: 'image/png' | 'image/webp'): Promise<void> => {
     try {
       const blob = await viewer.imageAs(type === 'image/png' ? 'png' : 'webp');
       if (blob) saveBlob(blob, `${(id ?? 'scene').replaceAll('/', '-').slice(0, 60)}.${type === 'image/png' ? 'png' : 'webp'}`);
-      else say('There is no full picture yet.');
+      else say(t('There is no full image yet.'));
     } catch (fault) {
       say(findingsOf(fault).map((one) => sentence(one)).join(' '));
     }
   };
   return (
     <dialog ref={dialog} class="share" aria-labelledby="share-title" onClose={() => (sharing.value = false)}>
-      <h2 id="share-title">Share “{title}”</h2>
+      <h2 id="share-title">{t('Share “{title}”', { title })}</h2>
       {unstored && <Unstored viewer={viewer} />}
       {id !== null && (
         <section class="section">
-          <h3>Links</h3>
-          <Line label="This view" text={here() + viewer.link()} what="Link" />
-          <Line label="The scene" text={here() + scenePlace(id)} what="Link" />
-          <p class="note">{own} The link of this view holds camera, time and display options. Not in it: {left}{viewer.edited.value ? ', your edits' : ''}.</p>
+          <h3>{t('Links')}</h3>
+          <Line label={t('This view')} text={here() + viewer.link()} done={t('Link copied.')} />
+          <Line label={t('The scene')} text={here() + scenePlace(id)} done={t('Link copied.')} />
+          <p class="note">{own} {t('The link of this view holds camera, time and display options. Not in it: {parts}.', { parts: left })}</p>
         </section>
       )}
       {id !== null && (
         <section class="section">
-          <h3>In another page</h3>
-          <Line label="Frame" text={embedCode(here(), viewer.link(), title)} what="Frame" />
-          <p class="note">The frame can be orbited. A page on another server shows it only if this server was started with --cors and its origin.</p>
+          <h3>{t('In another page')}</h3>
+          <Line label={t('Frame')} text={embedCode(here(), viewer.link(), title)} done={t('Frame copied.')} />
+          <p class="note">{t('The frame can be orbited. A page on another server shows it only if this server was started with --cors and its origin.')}</p>
         </section>
       )}
       <section class="section">
-        <h3>Image</h3>
+        <h3>{t('Image')}</h3>
         <div class="share-row">
-          <button type="button" class="button" onClick={() => void saveImage('image/png')}><Icon name="download" />PNG, exact</button>
-          <button type="button" class="button" onClick={() => void saveImage('image/webp')}><Icon name="download" />WebP, small</button>
+          <button type="button" class="button" onClick={() => void saveImage('image/png')}><Icon name="download" />{t('PNG, exact')}</button>
+          <button type="button" class="button" onClick={() => void saveImage('image/webp')}><Icon name="download" />{t('WebP, small')}</button>
         </div>
       </section>
       <Animation viewer={viewer} />
       <section class="section">
-        <h3>Command</h3>
-        <Line label="curl" text={curlOf(viewer)} what="Command" />
-        {viewer.edited.value && <p class="note">It sends scene.xml from the folder it is run in: download the XML first.</p>}
+        <h3>{t('Command')}</h3>
+        <Line label="curl" text={curlOf(viewer)} done={t('Command copied.')} />
+        {viewer.edited.value && <p class="note">{t('It sends scene.xml from the folder it is run in: download the XML first.')}</p>}
       </section>
-      <button type="button" class="button" onClick={() => (sharing.value = false)}>Close</button>
+      <button type="button" class="button" onClick={() => (sharing.value = false)}>{t('Close')}</button>
     </dialog>
   );
 }

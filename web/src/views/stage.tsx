@@ -8,7 +8,7 @@ import { lazyView } from './lazy.tsx';
 const help =
   'Drag or arrow keys orbit, right drag or two fingers pan, wheel or plus and minus zoom, W A S D move the focus, R resets, Space plays';
 
-const LightNote = lazyView(() => import('./light_note.tsx').then((module) => module.LightNote), 'the light mode');
+const LightNote = lazyView(() => import('./light_note.tsx').then((module) => module.LightNote));
 
 export const focusStage = (): void => document.querySelector<HTMLElement>('.stage')?.focus({ preventScroll: true });
 

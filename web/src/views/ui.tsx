@@ -7,6 +7,7 @@ import { cureOf } from '../cures.ts';
 import { filesOf } from '../files.ts';
 import type { NamedFile } from '../scene/bundle.ts';
 import { dropping } from '../upload.ts';
+import { t } from '../words.ts';
 import { Icon, type IconName } from './icons.tsx';
 
 const toast = signal('');
@@ -23,34 +24,34 @@ export const Toast = () => (
   <div class={toast.value ? 'toast shown' : 'toast'} role="status">{toast.value}</div>
 );
 
-/** Copies, or shows what could not be copied. */
-export async function copy(text: string, what: string): Promise<void> {
+/** Copies and says so in the words `done`, or shows what could not be copied. */
+export async function copy(text: string, done: string): Promise<void> {
   try {
     await navigator.clipboard.writeText(text);
-    say(`${what} copied.`);
+    say(done);
   } catch {
     // Without https the browser gives no clipboard: a prompt can be copied from.
-    window.prompt(`${what}:`, text);
+    window.prompt(t('Copy this:'), text);
   }
 }
 
 interface ToolProps {
   icon: IconName;
-  label: string;
+  label: string; // its name, which `shows` makes visible: beside the icon, or below it where there is room
+  shows?: 'beside' | 'below';
+  hint?: string; // longer, for the tooltip
   keys?: string;
   pressed?: boolean;
   disabled?: boolean;
   onClick: () => void;
-  text?: string; // beside the icon
-  short?: string; // below it, where there is room
 }
 
-export const Tool = ({ icon, label, keys, pressed, disabled, onClick, text, short }: ToolProps) => (
+export const Tool = ({ icon, label, shows, hint, keys, pressed, disabled, onClick }: ToolProps) => (
   <button
-    type="button" class={text ? 'tool worded' : 'tool'} aria-label={label} onClick={onClick} disabled={disabled ?? false}
-    title={keys ? `${label} (${keys})` : label} {...(pressed === undefined ? {} : { 'aria-pressed': pressed })}
+    type="button" class={shows === 'beside' ? 'tool worded' : 'tool'} aria-label={label} onClick={onClick} disabled={disabled ?? false}
+    title={keys ? `${hint ?? label} (${keys})` : (hint ?? label)} {...(pressed === undefined ? {} : { 'aria-pressed': pressed })}
   >
-    <Icon name={icon} />{text && <span>{text}</span>}{short && <span class="short" aria-hidden="true">{short}</span>}
+    <Icon name={icon} />{shows && <span {...(shows === 'below' ? { class: 'short' } : {})}>{label}</span>}
   </button>
 );
 
@@ -109,7 +110,7 @@ export function Findings({ findings, onPick, repair }: {
   const notable = findings.filter((one) => one.severity !== 'info');
   if (notable.length === 0) return null;
   return (
-    <ol class="findings" aria-label="Findings">
+    <ol class="findings" aria-label={t('Findings')}>
       {notable.map((finding, index) => [finding, index, repair?.(finding)] as const).map(([finding, index, answer]) => (
         <li key={index} class={finding.severity} {...(answer ? dropHere(answer.take) : {})}>
           {finding.line && onPick

@@ -71,9 +71,9 @@ function Panel({ viewer }: { viewer: Viewer }) {
   );
 }
 
-const Inspector = lazyView(() => import('./inspector.tsx').then((module) => module.Inspector), 'the inspector');
-const FilesPanel = lazyView(() => import('./files_panel.tsx').then((module) => module.FilesPanel), 'the files');
-const Editor = lazyView(() => import('./editor.tsx').then((module) => module.Editor), 'the editor');
+const Inspector = lazyView(() => import('./inspector.tsx').then((module) => module.Inspector));
+const FilesPanel = lazyView(() => import('./files_panel.tsx').then((module) => module.FilesPanel));
+const Editor = lazyView(() => import('./editor.tsx').then((module) => module.Editor));
 
 export function ViewerPage({ id, view }: { id: string | null; view: URLSearchParams }) {
   const own = id === null ? local.peek() : null;

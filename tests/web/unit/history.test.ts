@@ -1,11 +1,12 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { History, stepGapMs, type Moment } from '../../../web/src/scene/history.ts';
+import { noMarks } from '../../../web/src/scene/marks.ts';
 import { callOf, crc32, stlOf } from '../../../web/src/scene/exports.ts';
 import { renameInText, timesNamed } from '../../../web/src/scene/file_names.ts';
 import { areParts, listFiles, missingOf, noChanges, pathFor, withFile, withoutFile } from '../../../web/src/scene/scene_files.ts';
 
-const at = (text: string | null): Moment => ({ text, files: noChanges, orbit: null, walk: null });
+const at = (text: string | null): Moment => ({ text, files: noChanges, marks: noMarks, orbit: null, walk: null });
 
 test('changes of one kind that follow each other are one step; others are not', () => {
   const history = new History();
@@ -20,6 +21,23 @@ test('changes of one kind that follow each other are one step; others are not', 
   for (let now = at('end'), before = history.undo(now); before; now = before, before = history.undo(now)) seen.push(before.text);
   assert.deepEqual(seen, ['abcdef', 'abcde', 'abcd', 'abcd', 'a']);
   assert.equal(history.undo(at('a')), null);
+});
+
+test('a gesture is one step, however long it takes, and none where it changes nothing', () => {
+  const history = new History();
+  history.record('dragging', at('a'), 0);
+  history.beginGesture();
+  history.record('dragging', at('ab'), 1);
+  history.record('dragging', at('abc'), 10 * stepGapMs);
+  history.endGesture(at('abcd'));
+  history.record('dragging', at('abcd'), 10 * stepGapMs + 1);
+  history.beginGesture();
+  history.record('dragging', at('e'), 10 * stepGapMs + 2);
+  history.endGesture(at('e'));
+  history.beginGesture();
+  history.endGesture(at('e'));
+  assert.deepEqual(['abcd', 'ab', 'a'].map(() => history.undo(at('end'))?.text), ['abcd', 'ab', 'a']);
+  assert.ok(!history.canUndo);
 });
 
 test('redo goes the same way back, and a new change ends it', () => {

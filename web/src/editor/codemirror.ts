@@ -65,11 +65,15 @@ export interface Editor {
   setFindings(findings: readonly Finding[]): void;
   /** Selects from there to the end of the line, and shows it. */
   reveal(line: number, column: number): void;
+  /** Selects a range and shows it; the focus stays where it is. */
+  select(from: number, to: number): void;
+  /** The index of the cursor in the text. */
+  cursor(): number;
   destroy(): void;
 }
 
-/** Undo and redo are the page's (scene/history.ts): its keys are not bound here. */
-export function createEditor(host: HTMLElement, text: string, changed: (text: string) => void): Editor {
+/** `moved`: the user or `reveal` put the cursor elsewhere. Undo and redo are the page's (scene/history.ts): its keys are not bound here. */
+export function createEditor(host: HTMLElement, text: string, changed: (text: string) => void, moved: () => void): Editor {
   const root = host.shadowRoot ?? host.attachShadow({ mode: 'open' });
   let outside = false; // the change comes from elsewhere: it is not told again
   const view = new EditorView({
@@ -85,6 +89,7 @@ export function createEditor(host: HTMLElement, text: string, changed: (text: st
         keymap.of([...closeBracketsKeymap, ...defaultKeymap, ...searchKeymap, ...foldKeymap, ...completionKeymap, ...lintKeymap, indentWithTab]),
         EditorView.updateListener.of((update) => {
           if (update.docChanged && !outside) changed(update.state.doc.toString());
+          if (update.selectionSet && !outside) moved();
         }),
       ],
     }),
@@ -127,6 +132,12 @@ export function createEditor(host: HTMLElement, text: string, changed: (text: st
       });
       view.focus();
     },
+    select(from, to) {
+      outside = true;
+      view.dispatch({ selection: EditorSelection.range(to, from), effects: EditorView.scrollIntoView(from, { y: 'center' }) });
+      outside = false;
+    },
+    cursor: () => view.state.selection.main.head,
     destroy: () => view.destroy(),
   };
 }

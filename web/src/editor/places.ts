@@ -19,8 +19,14 @@ export function wordLength(line: string, index: number): number {
   return Math.max(1, found?.length ?? rest.length);
 }
 
+export interface Change {
+  from: number;
+  to: number;
+  insert: string;
+}
+
 /** The one replacement that turns a text into another. */
-export function changeBetween(before: string, after: string): { from: number; to: number; insert: string } {
+export function changeBetween(before: string, after: string): Change {
   let start = 0;
   const shorter = Math.min(before.length, after.length);
   while (start < shorter && before[start] === after[start]) start += 1;

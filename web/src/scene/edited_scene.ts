@@ -7,6 +7,7 @@ import type { Loose } from './bundle.ts';
 import { hashText, loadDraft, saveDraft, type Draft } from './drafts.ts';
 import type { Origin } from './frame.ts';
 import { History, type Moment, type WrittenHistory } from './history.ts';
+import { isMarked, mover, moveMarks, noMarks, type Marks } from './marks.ts';
 import { isChanged, noChanges, type FileChanges } from './scene_files.ts';
 
 /** By `typing` (drawn when it pauses), by `dragging` a slider (drawn as a movement), or by one step that is `done`. */
@@ -16,6 +17,7 @@ export type Editing = 'typing' | 'dragging' | 'done';
 interface KeptDraft {
   base: string;
   files: FileChanges;
+  marks?: Marks; // drafts of earlier pages have none
   history: WrittenHistory;
 }
 
@@ -26,6 +28,8 @@ export abstract class EditedScene {
   readonly original = signal<string | null>(null);
   readonly text = signal<string | null>(null); // of the editor; null: not loaded
   readonly files = signal<FileChanges>(noChanges);
+  readonly marks = signal<Marks>(noMarks);
+  readonly selected = signal<number | null>(null); // the index of the element's "<" in the text
   readonly came = signal<FileList | null>(null); // the files that the scene came with; null: not asked for
   readonly orbit = signal<Orbit | null>(null); // null: the scene's own camera
   readonly walk = signal<Walk | null>(null);
@@ -36,6 +40,8 @@ export abstract class EditedScene {
 
   private readonly history = new History();
   private draftTimer: ReturnType<typeof setTimeout> | undefined;
+  private hide: ((text: string, hidden: readonly number[]) => string) | null = null;
+  private shown = { text: '', marks: noMarks, result: '' }; // the last text without what is hidden
   private besides: Promise<KeptDraft | null> = Promise.resolve(null);
 
   /** `loose`: a document and files of this browser, which the server does not keep. `isRemembered`: with drafts. */
@@ -44,7 +50,16 @@ export abstract class EditedScene {
   /** Something is to be drawn anew. */
   protected abstract redraw(how: Editing): void;
 
+  /** What images are drawn of: without what is hidden. */
   origin(): Origin {
+    const document = this.document(), text = this.text.value, marks = this.marks.value;
+    if (marks.hidden.length === 0 || text === null || !this.hide) return document;
+    if (this.shown.text !== text || this.shown.marks !== marks) this.shown = { text, marks, result: this.hide(text, marks.hidden) };
+    return { ...document, text: this.shown.result };
+  }
+
+  /** The whole document as it is edited. */
+  document(): Origin {
     return { id: this.id, text: this.id === null || this.edited.value ? this.text.value : null, loose: this.loose, files: this.files.value };
   }
 
@@ -58,12 +73,14 @@ export abstract class EditedScene {
   protected async restore(draft: Draft | null): Promise<void> {
     const beside = await this.besides;
     if (beside && isChanged(beside.files)) this.files.value = beside.files;
-    if (draft || isChanged(this.files.value)) await this.loadText();
+    const marks = beside?.marks ?? noMarks;
+    if (draft || isChanged(this.files.value) || isMarked(marks)) await this.loadText();
     if (draft) this.text.value = draft.text;
     const base = hashText(this.original.value ?? '');
     if (beside && beside.base === base) {
       this.history.read(beside.history);
       this.tellHistory();
+      await this.setMarks(marks);
     }
     if (this.edited.value && this.id !== null)
       this.notice.value = !draft || base === draft.base ? restoredNotice : 'Your edits were restored; the scene on the server has changed since.';
@@ -92,9 +109,46 @@ export abstract class EditedScene {
   edit(text: string, how: Editing): void {
     if (text === this.text.value) return;
     this.record(how === 'done' ? '' : how);
-    this.text.value = text;
+    this.setText(text);
     this.keepSoon();
     this.redraw(how);
+  }
+
+  /** Marks and selection stay with their elements. */
+  private setText(text: string | null): void {
+    const marks = this.marks.value, at = this.selected.value;
+    batch(() => {
+      if (isMarked(marks) || at !== null) {
+        const move = mover(this.text.value ?? '', text ?? '');
+        this.marks.value = moveMarks(marks, move);
+        this.selected.value = at === null ? null : move(at);
+      }
+      this.text.value = text;
+    });
+  }
+
+  private async setMarks(marks: Marks): Promise<void> {
+    if (marks.hidden.length > 0) this.hide ??= (await import('./hide.ts')).withoutElements;
+    this.marks.value = marks;
+  }
+
+  /** Hides, shows, locks or unlocks: one step. */
+  async mark(marks: Marks): Promise<void> {
+    await this.loadText();
+    this.record('');
+    await this.setMarks(marks);
+    this.keepSoon();
+    this.redraw('done');
+  }
+
+  /** Until `endGesture` all changes are one step. */
+  beginGesture(): void {
+    this.history.beginGesture();
+  }
+
+  endGesture(): void {
+    this.history.endGesture(this.moment());
+    this.tellHistory();
   }
 
   /** Document and files change in one step. */
@@ -104,14 +158,14 @@ export abstract class EditedScene {
     this.record('');
     batch(() => {
       this.files.value = changes;
-      this.text.value = text;
+      this.setText(text);
     });
     this.flushDraft();
     this.redraw('done');
   }
 
   private moment(): Moment {
-    return { text: this.text.value, files: this.files.value, orbit: this.orbit.value, walk: this.walk.value };
+    return { text: this.text.value, files: this.files.value, marks: this.marks.value, orbit: this.orbit.value, walk: this.walk.value };
   }
 
   /** To be called before a change. */
@@ -138,7 +192,7 @@ export abstract class EditedScene {
   private goTo(moment: Moment | null): void {
     if (!moment) return;
     batch(() => {
-      this.text.value = moment.text ?? this.original.value;
+      this.setText(moment.text ?? this.original.value);
       this.files.value = moment.files;
       this.orbit.value = moment.orbit;
       this.walk.value = moment.walk;
@@ -146,14 +200,14 @@ export abstract class EditedScene {
     });
     this.tellHistory();
     this.keepSoon();
-    this.redraw('done');
+    void this.setMarks(moment.marks).then(() => this.redraw('done'));
   }
 
   /** Back to what is stored: one step, which can be undone. */
   discardEdits(): void {
     this.record('');
     batch(() => {
-      this.text.value = this.original.value;
+      this.setText(this.original.value);
       this.files.value = noChanges;
       this.notice.value = '';
     });
@@ -164,8 +218,9 @@ export abstract class EditedScene {
   /** The edits live on elsewhere. */
   forgetDraft(): void {
     batch(() => {
-      this.text.value = this.original.value;
+      this.setText(this.original.value);
       this.files.value = noChanges;
+      this.marks.value = noMarks;
     });
     this.history.read({ texts: [], past: [], future: [] });
     this.flushDraft();
@@ -185,8 +240,8 @@ export abstract class EditedScene {
     const refuse = (): void => void (this.notice.value = 'This browser keeps no edits: copy the XML before you leave.');
     if (!isSaved) refuse();
     if (this.loose) return;
-    const isWorth = isChanged(this.files.value) || history.texts.length > 1;
-    const beside: KeptDraft = { base, files: this.files.value, history };
+    const marks = this.marks.value, isWorth = isChanged(this.files.value) || isMarked(marks) || history.texts.length > 1;
+    const beside: KeptDraft = { base, files: this.files.value, marks, history };
     void keep(this.keptKey, isWorth ? beside : null).then((done) => {
       if (!done && isChanged(this.files.value)) refuse();
     });

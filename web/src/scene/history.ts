@@ -1,11 +1,13 @@
 // One history of everything that is changed on a scene: its XML, its files and the camera.
 import type { Orbit, Walk } from '../maths/camera.ts';
+import { noMarks, type Marks } from './marks.ts';
 import type { FileChanges } from './scene_files.ts';
 
 /** What can be gone back to. */
 export interface Moment {
   text: string | null; // null: as it is stored
   files: FileChanges;
+  marks: Marks;
   orbit: Orbit | null;
   walk: Walk | null;
 }
@@ -26,6 +28,7 @@ export class History {
   private past: Moment[] = [];
   private future: Moment[] = []; // the next one last
   private last = { kind: '', at: Number.NEGATIVE_INFINITY };
+  private gesture: 'none' | 'begun' | 'recorded' = 'none';
 
   get canUndo(): boolean {
     return this.past.length > 0;
@@ -39,10 +42,25 @@ export class History {
   record(kind: string, before: Moment, now: number): void {
     const goesOn = kind !== '' && kind === this.last.kind && now - this.last.at < stepGapMs;
     this.last = { kind, at: now };
-    if (goesOn) return;
+    if (this.gesture === 'recorded' || (this.gesture === 'none' && goesOn)) return;
+    if (this.gesture === 'begun') this.gesture = 'recorded';
     this.past.push(before);
     if (this.past.length > maxSteps) this.past.shift();
     this.future = [];
+  }
+
+  /** Until `endGesture` all changes are one step, whatever time passes between them. */
+  beginGesture(): void {
+    this.end();
+    this.gesture = 'begun';
+  }
+
+  /** A gesture that changed nothing is no step. */
+  endGesture(current: Moment): void {
+    const before = this.past[this.past.length - 1];
+    if (this.gesture === 'recorded' && before && before.text === current.text && before.orbit === current.orbit) this.past.pop();
+    this.gesture = 'none';
+    this.end();
   }
 
   /** Ends the step: the next change begins another one. */
@@ -93,7 +111,8 @@ export class History {
   }
 
   read({ texts, past, future }: WrittenHistory): void {
-    const back = (moments: WrittenHistory['past']): Moment[] => moments.map((one) => ({ ...one, text: texts[one.text] ?? null }));
+    const back = (moments: WrittenHistory['past']): Moment[] => 
+      moments.map((one) => ({ ...one, marks: one.marks ?? noMarks, text: texts[one.text] ?? null }));
     this.past = back(past);
     this.future = back(future);
     this.end();

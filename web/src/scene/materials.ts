@@ -17,6 +17,7 @@ export interface Part {
   label: string;
   group: string;
   line: number;
+  start: number; // of the element's "<" in the text
 }
 
 const isLight = (element: XmlElement): boolean => element.name.toLowerCase() === 'light';
@@ -68,7 +69,7 @@ export function partsOf(text: string, roots: readonly XmlElement[]): Part[] {
     const named = attributeOf(element, ['name', 'id'])?.value;
     const what = kind === 'model' ? attributeOf(element, [...spellings('model', 'file'), 'command'])?.value : attributeOf(element, ['type'])?.value ?? 'point';
     out.push({
-      kind, index: kind === 'model' ? models++ : lights++, label: named ?? what ?? kind, group: groupName(element), line: lineOf(text, element.start),
+      kind, index: kind === 'model' ? models++ : lights++, label: named ?? what ?? kind, group: groupName(element), line: lineOf(text, element.start), start: element.start,
     });
   }
   return out;

@@ -43,7 +43,7 @@ export class Viewer extends EditedScene {
   readonly pictured = signal(false);
   readonly fault = signal<Fault | null>(null); // of the last request; null: it gave a picture
   readonly state = computed(() => stateOf(this.fault.value, this.pictured.value, this.findings.value));
-  readonly picked = signal<{ number: number; line: number } | null>(null); // the model last clicked
+  readonly frame = signal<{ camera: LookAt | null; moving: boolean } | null>(null); // of the image on show
   readonly reveal = signal<{ line: number; column: number } | null>(null); // a place the editor goes to
   readonly missing = computed(() => missingOf(this.findings.value)); // files that the document names
   readonly clock: SceneClock;
@@ -155,7 +155,7 @@ export class Viewer extends EditedScene {
 
   /** What the service knows of the document as it is edited now; null where it cannot be read. */
   async validated(): Promise<(SceneFacts & Partial<ModelPlaces>) | null> {
-    const origin = this.origin(), { text, files } = origin;
+    const origin = this.document(), { text, files } = origin;
     if (text === null) return this.facts.value;
     if (this.isKnown(origin)) return this.known?.facts ?? null;
     try {
@@ -174,22 +174,28 @@ export class Viewer extends EditedScene {
 
   /** All that is known to be wrong with the document on show. */
   private documentFindings(): readonly Finding[] {
-    const origin = this.origin();
+    const origin = this.document();
     if (origin.text !== null) return this.isKnown(origin) ? (this.known?.findings ?? []) : [];
     return this.facts.value ? findingsOfFacts(this.facts.value) : [];
   }
 
+  /** Where something is hidden, the image's findings are of less than the document. */
+  private allFindings({ findings }: Frame): Finding[] {
+    const known = this.documentFindings();
+    return this.marks.value.hidden.length > 0 ? [...known] : wholeFindings(known, findings);
+  }
+
   /** After an edit: the animation, the camera and the counts may be others. */
   private async refresh(): Promise<void> {
-    const origin = this.origin();
+    const origin = this.document();
     if (origin.text === null) {
       if (this.stored && this.facts.value !== this.stored) this.showFacts(this.stored); // an edit was taken back
       return;
     }
     if (this.isKnown(origin)) return;
     const facts = await this.validated();
-    if (!this.isKnown(this.origin())) return;
-    if (this.latest) this.setFindings(wholeFindings(this.documentFindings(), this.latest.findings));
+    if (!this.isKnown(this.document())) return;
+    if (this.latest) this.setFindings(this.allFindings(this.latest));
     if (!facts) return;
     const links = this.stored?.links ?? { self: '', source: '', image: '', thumbnail: '' };
     this.showFacts({ ...facts, id: this.id ?? '', links });
@@ -208,7 +214,7 @@ export class Viewer extends EditedScene {
   }
 
   /** Whether a finding is about the document, not about a file that it includes. */
-  isOfDocument(finding: Finding): boolean {
+  isOfDocument(finding: { file?: string }): boolean {
     const name = this.loose?.main ?? `${(this.id ?? 'scene').replace(/^.*\//, '')}.xml`;
     return !finding.file || finding.file === name || (!this.loose && /(^|\/)scene\.xml$/.test(finding.file));
   }
@@ -217,7 +223,9 @@ export class Viewer extends EditedScene {
   pictureOptions(): Options {
     const out: Options = { missing: 'placeholder', ...this.sizeOptions(), ...qualityOptions[this.quality.value], ...this.options.value };
     if (this.clock.time.value > 0) out['time'] = Number(this.clock.time.value.toFixed(3));
-    return { ...out, ...cameraOptions(this.walk.value, this.orbit.value, this.home) };
+    // A scene without a camera is framed: hiding a part of it moves no camera.
+    const held = this.marks.value.hidden.length > 0 && this.home ? orbitOf(this.home) : null;
+    return { ...out, ...cameraOptions(this.walk.value, this.orbit.value ?? held, this.home) };
   }
 
   /** On a slow line the image at rest is small to send, unless the most exact one was asked for. */
@@ -265,7 +273,8 @@ export class Viewer extends EditedScene {
         };
       }
       if (!moving) this.still.value = picture.blob;
-      this.setFindings(wholeFindings(this.documentFindings(), picture.findings));
+      this.frame.value = { camera: picture.camera, moving };
+      this.setFindings(this.allFindings(picture));
     });
     if (picture.camera && !this.home) this.home = picture.camera;
     this.latest?.bitmap.close();

@@ -1,6 +1,7 @@
 // The scene's XML as text with places: the elements and attributes of a document that may be broken,
 // and changes of single values that touch nothing else.
 import { parser } from '@lezer/xml';
+import type { Change } from '../editor/places.ts';
 
 export interface XmlAttribute {
   name: string;
@@ -24,11 +25,7 @@ export interface XmlElement {
   end: number;
 }
 
-export interface Edit {
-  from: number;
-  to: number;
-  insert: string;
-}
+export type Edit = Change;
 
 const entities: Record<string, string> = { amp: '&', lt: '<', gt: '>', quot: '"', apos: "'" };
 const unescape = (text: string): string =>

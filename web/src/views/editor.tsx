@@ -5,7 +5,10 @@ import { findingsOf, sentence } from '../api.ts';
 import { createEditor, type Editor as CodeEditor } from '../editor/codemirror.ts';
 import type { Viewer } from '../scene/viewer.ts';
 import { storeEdited } from '../scene/store_edited.ts';
+import { entryAround, entryAt, kindOf } from '../scene/tree.ts';
+import { parseXml } from '../scene/xml.ts';
 import { Tool } from './ui.tsx';
+import { panel } from './viewer_page.tsx';
 import { saveBlob } from './save.ts';
 
 export function Editor({ viewer }: { viewer: Viewer }) {
@@ -18,10 +21,21 @@ export function Editor({ viewer }: { viewer: Viewer }) {
   }, [viewer]);
   useEffect(() => {
     if (!ready) return;
-    const editor: CodeEditor = createEditor(host.current as HTMLDivElement, viewer.text.peek() ?? '', (text) => viewer.edit(text, 'typing'));
+    const editor: CodeEditor = createEditor(host.current as HTMLDivElement, viewer.text.peek() ?? '', (text) => viewer.edit(text, 'typing'), () => {
+      const around = entryAround(parseXml(viewer.text.peek() ?? ''), editor.cursor());
+      viewer.selected.value = around && kindOf(around) !== 'scene' ? around.start : null;
+    });
     const stops = [
       effect(() => editor.setText(viewer.text.value ?? '')),
       effect(() => editor.setFindings(viewer.findings.value.filter((one) => viewer.isOfDocument(one)))),
+      effect(() => {
+        const at = viewer.selected.value;
+        // After the panel has its size, and the text is there: it may change in the same step.
+        if (at !== null && panel.value === 'xml') requestAnimationFrame(() => {
+          const roots = parseXml(viewer.text.peek() ?? ''), element = entryAt(roots, viewer.selected.peek());
+          if (element && entryAround(roots, editor.cursor()) !== element) editor.select(element.start, element.openEnd);
+        });
+      }),
       effect(() => {
         const place = viewer.reveal.value;
         if (!place) return;

@@ -11,7 +11,6 @@ import { spellings } from '../scene/language.ts';
 import { attributeOf, parseXml, type XmlElement } from '../scene/xml.ts';
 import { Section } from './ui.tsx';
 
-const chosen = signal<{ kind: Part['kind']; index: number } | null>(null);
 const filter = signal('');
 const maxListed = 200;
 
@@ -112,16 +111,16 @@ function Light({ edits }: { edits: Edits }) {
   );
 }
 
-function PartList({ parts }: { parts: readonly Part[] }) {
+function PartList({ viewer, parts }: { viewer: Viewer; parts: readonly Part[] }) {
   const words = filter.value.toLowerCase();
   const found = parts.filter((part) => `${part.label} ${part.group} ${part.kind}`.toLowerCase().includes(words));
   return (
     <ul class="parts">
       {found.slice(0, maxListed).map((part) => {
-        const on = chosen.value?.kind === part.kind && chosen.value.index === part.index;
+        const on = viewer.selected.value === part.start;
         return (
           <li key={`${part.kind}${part.index}`}>
-            <button type="button" aria-pressed={on} onClick={() => (chosen.value = on ? null : { kind: part.kind, index: part.index })}>
+            <button type="button" aria-pressed={on} onClick={() => (viewer.selected.value = on ? null : part.start)}>
               <b>{part.kind === 'light' ? `Light: ${part.label}` : part.label}</b>
               <span>{[part.group, `line ${part.line}`].filter(Boolean).join(', ')}</span>
             </button>
@@ -136,32 +135,26 @@ function PartList({ parts }: { parts: readonly Part[] }) {
 export function Inspector({ viewer }: { viewer: Viewer }) {
   const [problem, setProblem] = useState('');
   useEffect(() => {
-    chosen.value = null;
     viewer.loadText().catch((fault: unknown) => setProblem(findingsOf(fault).map((one) => sentence(one)).join(' ')));
   }, [viewer]);
-  const text = viewer.text.value, picked = viewer.picked.value;
+  const text = viewer.text.value, selected = viewer.selected.value;
   const roots = useMemo(() => parseXml(text ?? ''), [text]);
   const parts = useMemo(() => partsOf(text ?? '', roots), [text, roots]);
-  useEffect(() => {
-    const part = picked && parts.find((one) => one.kind === 'model' && one.line === picked.line);
-    if (part) chosen.value = { kind: 'model', index: part.index };
-  }, [picked]);
   if (problem) return <p class="problem" role="alert">{problem}</p>;
   if (text === null) return <p class="note">Loading…</p>;
-  const at = chosen.value, element = at ? elementOf(roots, at.kind, at.index) : undefined;
-  const part = at && parts.find((one) => one.kind === at.kind && one.index === at.index);
+  const part = parts.find((one) => one.start === selected), element = part && elementOf(roots, part.kind, part.index);
   return (
     <div class="sections">
       <Section title={`Lights and models (${parts.length})`}>
         <input type="search" aria-label="Find a light or model" placeholder="Find, or click in the picture" value={filter.value}
           onInput={(event) => (filter.value = event.currentTarget.value)} />
-        <PartList parts={parts} />
+        <PartList viewer={viewer} parts={parts} />
       </Section>
-      {at && element && part && (
+      {element && part && (
         <Section title={`${part.kind} ${part.label}`}>
-          {at.kind === 'model'
-            ? <Model edits={{ viewer, roots, element, ...at }} />
-            : <Light edits={{ viewer, roots, element, ...at }} />}
+          {part.kind === 'model'
+            ? <Model edits={{ viewer, roots, element, kind: part.kind, index: part.index }} />
+            : <Light edits={{ viewer, roots, element, kind: part.kind, index: part.index }} />}
         </Section>
       )}
       {viewer.edited.value && (

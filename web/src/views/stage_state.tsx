@@ -108,3 +108,15 @@ export function Notice({ viewer }: { viewer: Viewer }) {
     </div>
   );
 }
+
+/** That the image shows less than the XML has, for as long as something is hidden. */
+export function HiddenNote({ viewer }: { viewer: Viewer }) {
+  const { hidden, locked } = viewer.marks.value;
+  if (hidden.length === 0) return null;
+  return (
+    <p class="state-note hidden-note" role="status">
+      <Icon name="hidden" /><span>{plural(hidden.length, 'part')} hidden on this page only. The XML keeps {hidden.length === 1 ? 'it' : 'them'}: links and stored scenes show everything.</span>
+      <button type="button" class="link" onClick={() => attempt(() => viewer.mark({ hidden: [], locked }))}>Show all</button>
+    </p>
+  );
+}

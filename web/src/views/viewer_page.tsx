@@ -12,19 +12,19 @@ import { newScene } from '../scene/template.ts';
 import { recall, remember } from '../storage.ts';
 import { GonePage } from './gone.tsx';
 import { focusStage, Stage } from './stage.tsx';
-import { FindingsDrawer, Notice, StageState } from './stage_state.tsx';
+import { FindingsDrawer, HiddenNote, Notice, StageState } from './stage_state.tsx';
 import { showHelp } from './sharing.ts';
 import { TimeBar } from './time_bar.tsx';
 import { Toolbar } from './toolbar.tsx';
 import { ViewPanel } from './view_panel.tsx';
 
-export type PanelName = 'none' | 'view' | 'inspect' | 'files' | 'xml';
+export type PanelName = 'none' | 'view' | 'tree' | 'inspect' | 'files' | 'xml';
 export const panel = signal<PanelName>('none');
 
 /** Once it was opened the editor stays, with its place and selection. */
 const hadEditor = signal(false);
 
-const tabs: [PanelName, string][] = [['view', 'View'], ['inspect', 'Inspect'], ['files', 'Files'], ['xml', 'XML']];
+const tabs: [PanelName, string][] = [['view', 'View'], ['tree', 'Tree'], ['inspect', 'Inspect'], ['files', 'Files'], ['xml', 'XML']];
 
 export function openPanel(name: PanelName): void {
   panel.value = name;
@@ -62,6 +62,7 @@ function Panel({ viewer }: { viewer: Viewer }) {
       {tabs.map(([name]) => (
         <div key={name} class="panel-body" id={`panel-${name}`} role="tabpanel" aria-labelledby={`tab-${name}`} hidden={panel.value !== name}>
           {name === 'view' && panel.value === name && <ViewPanel viewer={viewer} />}
+          {name === 'tree' && panel.value === name && <TreePanel viewer={viewer} />}
           {name === 'inspect' && panel.value === name && <Inspector viewer={viewer} />}
           {name === 'files' && panel.value === name && <FilesPanel viewer={viewer} />}
           {name === 'xml' && hadEditor.value && <Editor viewer={viewer} />}
@@ -71,6 +72,8 @@ function Panel({ viewer }: { viewer: Viewer }) {
   );
 }
 
+const SelectionLayer = lazyView(() => import('./selection_layer.tsx').then((module) => module.SelectionLayer));
+const TreePanel = lazyView(() => import('./tree_panel.tsx').then((module) => module.TreePanel));
 const Inspector = lazyView(() => import('./inspector.tsx').then((module) => module.Inspector));
 const FilesPanel = lazyView(() => import('./files_panel.tsx').then((module) => module.FilesPanel));
 const Editor = lazyView(() => import('./editor.tsx').then((module) => module.Editor));
@@ -148,9 +151,11 @@ export function ViewerPage({ id, view }: { id: string | null; view: URLSearchPar
         <Toolbar viewer={viewer} />
         <div class={`stage-area is-${viewer.state.value}`}>
           <Stage viewer={viewer} preview={preview} actions={{ pick: (x, y) => void pick(x, y), light: (a, b) => void light(a, b) }} />
+          <div class="selection-layer">{viewer.selected.value !== null && viewer.pictured.value && <SelectionLayer viewer={viewer} />}</div>
           <div class="stage-notes">
             <StageState viewer={viewer} onPick={showFinding} />
             <Notice viewer={viewer} />
+            <HiddenNote viewer={viewer} />
           </div>
           <FindingsDrawer viewer={viewer} onPick={showFinding} />
         </div>

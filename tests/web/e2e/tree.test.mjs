@@ -126,7 +126,7 @@ test('a hidden part is not drawn, the page says so, the XML keeps it, and undo a
   await settled(view);
   const hidden = await canvasPixels(view.page);
   assert.notDeepEqual(hidden, before);
-  assert.match(await view.page.locator('.hidden-note').innerText(), /1 part hidden on this page only/);
+  assert.match(await view.page.locator('.hidden-note').innerText(), /1 part is hidden on this page only/);
   assert.equal(await draftOf(view, 'torch'), null); // the document is as it was
   await view.page.waitForTimeout(400);
   await view.page.reload();

@@ -1,5 +1,6 @@
 // Selecting a model by a click in the image.
 import { say } from '../views/ui.tsx';
+import { t } from '../words.ts';
 import { isWithin } from './hide.ts';
 import { elementsDrawn, idImage } from './id_image.ts';
 import { nextSelection } from './tree.ts';
@@ -19,8 +20,8 @@ export async function pickModel(viewer: Viewer, x: number, y: number): Promise<v
   try {
     const [number, elements] = await Promise.all([numberAt(viewer, x, y), elementsDrawn(viewer)]);
     const model = number > 0 ? elements[number - 1] : undefined;
-    if (number > 0 && !model) return say(`Model ${number} of this scene has no place in the document.`);
-    if (model && isWithin(model, viewer.marks.value.locked)) return say('This part is locked. Select it in the tree to unlock it.');
+    if (number > 0 && !model) return say(t('Model {number} of this scene has no place in the document.', { number }));
+    if (model && isWithin(model, viewer.marks.value.locked)) return say(t('This part is locked. Select it in the tree to unlock it.'));
     viewer.selected.value = model ? nextSelection(model, viewer.selected.value).start : null;
   } catch (fault) {
     viewer.report(fault);

@@ -8,8 +8,8 @@ export type NodeKind = 'scene' | 'camera' | 'light' | 'group' | 'model' | 'inclu
 export interface TreeNode {
   element: XmlElement;
   kind: NodeKind;
-  label: string;
-  note: string; // what it is, where the label is a name
+  name: string; // empty where the document gives none
+  note: string; // its shape, type or file
   parent: TreeNode | null;
   children: TreeNode[];
 }
@@ -38,29 +38,21 @@ export function commentBefore(text: string, element: XmlElement): string {
 
 const valueOf = (element: XmlElement, names: readonly string[]): string => attributeOf(element, names)?.value.trim() ?? '';
 const shapeOf = (model: XmlElement): string => valueOf(model, [...spellings('model', 'file'), 'command']);
-const words: Record<Exclude<NodeKind, 'group' | 'model' | 'light'>, string> = {
-  scene: 'Scene', camera: 'Camera', include: 'Included scene', skybox: 'Skybox', background: 'Background', entity: 'Entity',
-};
 
-/** The name, and what it is. */
-function labelOf(text: string, element: XmlElement, kind: NodeKind): { label: string; note: string } {
+function labelOf(text: string, element: XmlElement, kind: NodeKind): { name: string; note: string } {
   if (kind === 'model') {
-    const name = valueOf(element, ['name', 'id']), shape = shapeOf(element) || 'model';
-    return name ? { label: name, note: shape } : { label: shape, note: '' };
+    const name = valueOf(element, ['name', 'id']), shape = shapeOf(element);
+    return name ? { name, note: shape } : { name: shape, note: '' };
   }
-  if (kind === 'light') {
-    const type = valueOf(element, ['type']).toLowerCase() || 'light';
-    const name = valueOf(element, spellings('light', 'name')) || commentBefore(text, element);
-    return name ? { label: name, note: `${type} light` } : { label: type === 'light' ? 'light' : `${type} light`, note: '' };
-  }
+  if (kind === 'light')
+    return { name: valueOf(element, spellings('light', 'name')) || commentBefore(text, element), note: valueOf(element, ['type']).toLowerCase() };
   if (kind === 'group') {
     const name = valueOf(element, spellings('group', 'name')) || commentBefore(text, element);
-    if (name) return { label: name, note: '' };
-    const models = [...walkXml(element.children)].filter((one) => kindOf(one) === 'model'), first = models[0];
-    return { label: 'group', note: first ? `${short(shapeOf(first))}${models.length > 1 ? `, ${models.length - 1} more` : ''}` : 'empty' };
+    const models = name ? [] : [...walkXml(element.children)].filter((one) => kindOf(one) === 'model'), first = models[0];
+    return { name, note: first ? `${short(shapeOf(first))}${models.length > 1 ? ` + ${models.length - 1}` : ''}` : '' };
   }
   const file = valueOf(element, kind === 'include' ? spellings('xml', 'file') : ['texture', 'file', 'image', 'color', 'colour']);
-  return { label: words[kind], note: kind === 'scene' || kind === 'camera' ? '' : short(file) };
+  return { name: '', note: kind === 'scene' || kind === 'camera' ? '' : short(file) };
 }
 
 /** The tree of a document, from its root. */

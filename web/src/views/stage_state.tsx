@@ -6,7 +6,7 @@ import { countFindings } from '../scene/state.ts';
 import type { Viewer } from '../scene/viewer.ts';
 import { Icon } from './icons.tsx';
 import { Findings, say, type Repair } from './ui.tsx';
-import { plural } from '../words.ts';
+import { plural, t } from '../words.ts';
 
 const drawerOpen = signal(false);
 
@@ -115,8 +115,9 @@ export function HiddenNote({ viewer }: { viewer: Viewer }) {
   if (hidden.length === 0) return null;
   return (
     <p class="state-note hidden-note" role="status">
-      <Icon name="hidden" /><span>{plural(hidden.length, 'part')} hidden on this page only. The XML keeps {hidden.length === 1 ? 'it' : 'them'}: links and stored scenes show everything.</span>
-      <button type="button" class="link" onClick={() => attempt(() => viewer.mark({ hidden: [], locked }))}>Show all</button>
+      <Icon name="hidden" /><span>{plural(hidden.length, '{count} part is hidden on this page only. The XML keeps it: links and stored scenes show it.',
+        '{count} parts are hidden on this page only. The XML keeps them: links and stored scenes show them.')}</span>
+      <button type="button" class="link" onClick={() => attempt(() => viewer.mark({ hidden: [], locked }))}>{t('Show all')}</button>
     </p>
   );
 }

@@ -7,6 +7,7 @@ import { toggled } from '../scene/marks.ts';
 import { treeOf, walkTree, type NodeKind, type TreeNode } from '../scene/tree.ts';
 import type { Viewer } from '../scene/viewer.ts';
 import { lineOf, parseXml } from '../scene/xml.ts';
+import { msg, t } from '../words.ts';
 import { Icon, type IconName } from './icons.tsx';
 import { say } from './ui.tsx';
 import { openPanel } from './viewer_page.tsx';
@@ -14,6 +15,12 @@ import { openPanel } from './viewer_page.tsx';
 const icons: Record<NodeKind, IconName> = {
   scene: 'world', camera: 'camera', light: 'lamp', group: 'group', model: 'model', include: 'include', skybox: 'sun', background: 'panel', entity: 'walk',
 };
+const kindWords: Record<NodeKind, string> = {
+  scene: msg('Scene'), camera: msg('Camera'), light: msg('Light'), group: msg('Group'), model: msg('Model'), include: msg('Included scene'),
+  skybox: msg('Skybox'), background: msg('Background'), entity: msg('Entity'),
+};
+export const nameOf = (node: TreeNode): string => node.name || t(kindWords[node.kind]);
+
 const hideable: readonly NodeKind[] = ['light', 'group', 'model', 'include'];
 
 /** What was opened or closed by hand, by the path of the entry; others are open in a small scene. */
@@ -33,7 +40,7 @@ interface Row {
 
 function rowsOf(nodes: readonly TreeNode[], isSmall: boolean, words: string): Row[] {
   const out: Row[] = [];
-  const matches = (node: TreeNode): boolean => `${node.label} ${node.note} ${node.kind}`.toLowerCase().includes(words);
+  const matches = (node: TreeNode): boolean => `${nameOf(node)} ${node.note} ${node.kind}`.toLowerCase().includes(words);
   const visit = (all: readonly TreeNode[], level: number, above: string): boolean => {
     let isAny = false;
     all.forEach((node, index) => {
@@ -70,9 +77,10 @@ function TreeRow({ viewer, row, id, keys }: { viewer: Viewer; row: Row; id: stri
   const { node, level, place, siblings, open, path } = row, { hidden, locked } = viewer.marks.value;
   const isSelected = viewer.selected.value === node.element.start, isHidden = isWithin(node.element, hidden), isLocked = isWithin(node.element, locked);
   const own = { hidden: hidden.includes(node.element.start), locked: locked.includes(node.element.start) };
-  const name = [node.note ? `${node.label} ${node.note}` : node.label, isHidden && 'hidden', isLocked && 'locked'].filter(Boolean).join(', ');
-  const mark = (kind: 'hidden' | 'locked', icon: IconName, label: string) => (
-    <button type="button" class="tree-mark" tabIndex={-1} aria-label={`${label} ${node.label}`} title={label} aria-pressed={own[kind]}
+  const label = nameOf(node);
+  const name = [node.note ? `${label} ${node.note}` : label, isHidden && t('hidden'), isLocked && t('locked')].filter(Boolean).join(', ');
+  const mark = (kind: 'hidden' | 'locked', icon: IconName, action: string) => (
+    <button type="button" class="tree-mark" tabIndex={-1} aria-label={action} title={action} aria-pressed={own[kind]}
       onClick={(event) => {
         event.stopPropagation();
         toggleMark(viewer, node, kind);
@@ -88,11 +96,11 @@ function TreeRow({ viewer, row, id, keys }: { viewer: Viewer; row: Row; id: stri
         setOpen(path, !open);
       }}>{open !== null && <Icon name="down" />}</span>
       <Icon name={icons[node.kind]} />
-      <span class="tree-name">{node.label}{node.note && <small> {node.note}</small>}</span>
+      <span class="tree-name">{label}{node.note && <small> {node.note}</small>}</span>
       {hideable.includes(node.kind) && (
         <span class="tree-marks">
-          {mark('locked', own.locked ? 'lock' : 'unlock', own.locked ? 'Unlock' : 'Lock')}
-          {mark('hidden', own.hidden ? 'hidden' : 'eye', own.hidden ? 'Show' : 'Hide')}
+          {mark('locked', own.locked ? 'lock' : 'unlock', own.locked ? t('Unlock {name}', { name: label }) : t('Lock {name}', { name: label }))}
+          {mark('hidden', own.hidden ? 'hidden' : 'eye', own.hidden ? t('Show {name}', { name: label }) : t('Hide {name}', { name: label }))}
         </span>
       )}
     </li>
@@ -150,7 +158,7 @@ function Tree({ viewer, nodes, rows }: { viewer: Viewer; nodes: readonly TreeNod
     opened.value = next;
   }, [selected, nodes]);
   return (
-    <ul ref={list} class="tree" role="tree" aria-label="Tree of the scene" tabIndex={0} onKeyDown={press} onScroll={(event) => setTop(event.currentTarget.scrollTop)}
+    <ul ref={list} class="tree" role="tree" aria-label={t('Tree of the scene')} tabIndex={0} onKeyDown={press} onScroll={(event) => setTop(event.currentTarget.scrollTop)}
       {...(at >= first && at < last ? { 'aria-activedescendant': `tree-${rows[at]?.path}` } : {})}>
       <li role="none" style={{ height: `${first * size.row}px` }} />
       {rows.slice(first, last).map((row) => <TreeRow key={row.path} viewer={viewer} row={row} id={`tree-${row.path}`} keys="H L Enter" />)}
@@ -170,18 +178,18 @@ export function TreePanel({ viewer }: { viewer: Viewer }) {
   const count = useMemo(() => [...walkTree(nodes)].length, [nodes]);
   const rows = useMemo(() => rowsOf(nodes, count <= maxOpenEntries, words), [nodes, count, words, opened.value]);
   if (problem) return <p class="problem" role="alert">{problem}</p>;
-  if (text === null) return <p class="note">Loading…</p>;
+  if (text === null) return <p class="note">{t('Loading…')}</p>;
   const selected = [...walkTree(nodes)].find((one) => one.element.start === viewer.selected.value);
   return (
     <div class="tree-panel">
       <div class="tree-head">
-        <input type="search" aria-label="Find in the tree" placeholder="Find" value={filter.value} onInput={(event) => (filter.value = event.currentTarget.value)} />
+        <input type="search" aria-label={t('Find in the tree')} placeholder={t('Find')} value={filter.value} onInput={(event) => (filter.value = event.currentTarget.value)} />
       </div>
-      {rows.length > 0 ? <Tree viewer={viewer} nodes={nodes} rows={rows} /> : <p class="note">{words ? 'Nothing of that name.' : 'The document has no scene.'}</p>}
+      {rows.length > 0 ? <Tree viewer={viewer} nodes={nodes} rows={rows} /> : <p class="note">{words ? t('Nothing of that name.') : t('The document has no scene.')}</p>}
       {selected && (
         <div class="tree-foot">
-          <p><b>{selected.label}</b> {selected.note && <span class="note">{selected.note}</span>}</p>
-          <button type="button" class="link" onClick={() => openPanel('xml')}>line {lineOf(text, selected.element.start)}</button>
+          <p><b>{nameOf(selected)}</b> {selected.note && <span class="note">{selected.note}</span>}</p>
+          <button type="button" class="link" onClick={() => openPanel('xml')}>{t('line {line}', { line: lineOf(text, selected.element.start) })}</button>
         </div>
       )}
     </div>

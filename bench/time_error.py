@@ -1,4 +1,5 @@
-"""Time against error of Farol, fixed divisions, POV-Ray and three.js on the same spheres.
+"""Time against error of Farol, fixed divisions, POV-Ray and three.js (WebGL and WebGPU) on the same
+spheres.
 
 Each program is measured against its own limit, for their shading models differ: Farol against the
 ray caster of tests/support, POV-Ray against 81 samples a pixel, three.js against 64 samples a pixel
@@ -39,8 +40,9 @@ def three_settings(count):
 
 
 PAGE = """<!doctype html><body><script type="module">
-import * as THREE from './three.module.js';
+import * as THREE from './MODULE';
 const post = (path, body) => fetch(path, {method: 'POST', body});
+addEventListener('unhandledrejection', () => post('/failed'));
 const BALLS = DATA;
 function build(segments) {
   const scene = new THREE.Scene(), sphere = new THREE.SphereGeometry(1, segments, segments / 2);
@@ -59,11 +61,12 @@ function build(segments) {
 const camera = new THREE.PerspectiveCamera(45, 1, 1, 100);
 camera.position.set(0, 0, 12);
 camera.lookAt(0, 0, -3);
+BACKEND
 /** One frame of SIDE x SIDE px: each pixel the mean of scale x scale samples. */
-function frame(renderer, scene, scale, large, small) {
+async function frame(renderer, scene, scale, large, small) {
   renderer.render(scene, camera);
-  const gl = renderer.getContext(), width = SIDE * scale;
-  gl.readPixels(0, 0, width, width, gl.RGBA, gl.UNSIGNED_BYTE, large);
+  const width = SIDE * scale;
+  await read(renderer, width, large);
   if (scale === 1) return large;
   for (let y = 0; y < SIDE; ++y)
     for (let x = 0; x < SIDE; ++x)
@@ -77,21 +80,48 @@ function frame(renderer, scene, scale, large, small) {
   return small;
 }
 for (const [number, {segments, scale, msaa, runs}] of SETTINGS.entries()) {
-  const renderer = new THREE.WebGLRenderer({antialias: msaa, preserveDrawingBuffer: true});
+  const renderer = await make(msaa, SIDE * scale);
   renderer.setSize(SIDE * scale, SIDE * scale);
   const scene = build(segments), small = new Uint8Array(SIDE * SIDE * 4);
   const large = new Uint8Array(SIDE * SIDE * scale * scale * 4);
-  frame(renderer, scene, scale, large, small);
+  await frame(renderer, scene, scale, large, small);
   await post('/mark');
   let pixels;
-  for (let i = 0; i < runs; ++i) pixels = frame(renderer, scene, scale, large, small);
+  for (let i = 0; i < runs; ++i) pixels = await frame(renderer, scene, scale, large, small);
   await post('/mark');
-  await post('/pixels/' + number, pixels);
-  renderer.dispose();
-  renderer.forceContextLoss();
+  await post('/pixels/' + (FIRST + number), pixels);
+  end(renderer);
 }
 await post('/done');
 </script>"""
+# How each backend begins, gives the pixels of its last frame, and ends.
+BACKENDS = {
+    "WebGL": ("three.module.js", ["--disable-gpu", "--enable-unsafe-swiftshader"], """
+const make = async (antialias) => new THREE.WebGLRenderer({antialias, preserveDrawingBuffer: true});
+const read = (renderer, width, large) => {
+  const gl = renderer.getContext();
+  gl.readPixels(0, 0, width, width, gl.RGBA, gl.UNSIGNED_BYTE, large);
+};
+const end = (renderer) => { renderer.dispose(); renderer.forceContextLoss(); };"""),
+    "WebGPU": ("three.webgpu.js", ["--enable-unsafe-webgpu", "--use-webgpu-adapter=swiftshader"], """
+const make = async (antialias, width) => {
+  const renderer = new THREE.WebGPURenderer({antialias});
+  await renderer.init();
+  if (!renderer.backend.isWebGPUBackend) throw new Error('no WebGPU');
+  // The texture's format writes sRGB; pixels of a canvas by SwiftShader cannot be read.
+  target = new THREE.RenderTarget(width, width, {samples: antialias ? 4 : 0, colorSpace: THREE.SRGBColorSpace});
+  renderer.setRenderTarget(target);
+  return renderer;
+};
+let target;
+const read = async (renderer, width, large) => {
+  const bytes = await renderer.readRenderTargetPixelsAsync(target, 0, 0, width, width);
+  // Rows are padded to 256 bytes.
+  const row = Math.ceil(width * 4 / 256) * 256;
+  for (let y = 0; y < width; ++y) large.set(bytes.subarray(y * row, y * row + width * 4), y * width * 4);
+};
+const end = (renderer) => renderer.dispose();"""),
+}
 
 
 def three_folder():
@@ -145,6 +175,7 @@ class Page(http.server.SimpleHTTPRequestHandler):
         elif self.path.startswith("/pixels/"):
             write_ppm(self.run.folder / f"three-{int(self.path.rsplit('/', 1)[1])}.ppm", body, True)
         else:
+            self.run.complete = self.path == "/done"
             self.run.done.set()
         self.send_response(204)
         self.end_headers()
@@ -154,23 +185,24 @@ class Page(http.server.SimpleHTTPRequestHandler):
 
 
 class ThreeRun:
-    """All settings in one Chromium, one after another."""
+    """Settings in one Chromium, one after another. Their pixels are named by numbers from `first`."""
 
-    def __init__(self, folder, chromium, balls, settings):
-        self.folder, self.marks, self.done = folder, [], threading.Event()
+    def __init__(self, folder, chromium, backend, balls, settings, first=0):
+        self.folder, self.marks, self.done, self.complete = folder, [], threading.Event(), False
+        module, words, script = BACKENDS[backend]
         (folder / "time.html").write_text(
-            PAGE.replace("DATA", json.dumps(balls)).replace("SETTINGS", json.dumps(settings))
-            .replace("SIDE", str(SIDE)))
+            PAGE.replace("MODULE", module).replace("BACKEND", script)
+            .replace("DATA", json.dumps(balls)).replace("SETTINGS", json.dumps(settings))
+            .replace("FIRST", str(first)).replace("SIDE", str(SIDE)))
         server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), functools.partial(Page, self))
         threading.Thread(target=server.serve_forever, daemon=True).start()
         with tempfile.TemporaryDirectory() as profile:
             self.process = subprocess.Popen(
-                [chromium, "--headless", "--no-sandbox", "--disable-dev-shm-usage", "--disable-gpu",
-                 "--enable-unsafe-swiftshader", "--no-first-run", f"--user-data-dir={profile}/p",
-                 "--remote-debugging-port=0",
+                [chromium, "--headless", "--no-sandbox", "--disable-dev-shm-usage", *words,
+                 "--no-first-run", f"--user-data-dir={profile}/p", "--remote-debugging-port=0",
                  f"http://127.0.0.1:{server.server_port}/time.html"],
                 stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-            self.complete = self.done.wait(600)
+            self.done.wait(600)
             self.process.terminate()
             try:
                 self.process.wait(10)
@@ -233,20 +265,31 @@ def three_rows(bench, progress, folder, balls, runs):
         progress.say("skipped: three.js or Chromium is not installed (npm install three in "
                      "build/bench, or FAROL_THREE_MODULES)")
         return []
-    for name in ("three.module.js", "three.core.js"):
+    for name in ("three.module.js", "three.core.js", "three.webgpu.js", "three.tsl.js"):
         shutil.copy(build / name, folder / name)
     settings = [{**s, "runs": runs} for s in three_settings(len(balls))]
-    run = ThreeRun(folder, chromium, balls, settings)
-    if not run.complete:
-        progress.say("skipped: three.js did not finish in Chromium")
-        return []
-    return [{"program": "three.js",
-             "setting": f"{s['segments']} segments, {s['scale']} x {s['scale']}" +
-             (", MSAA" if s["msaa"] else ""),
-             "cpuMs": (run.marks[2 * i + 1] - run.marks[2 * i]) / s["runs"],
-             "flip": flip(bench, folder / f"three-{i}.ppm",
-                          folder / f"three-{len(settings) - 1}.ppm")}
-            for i, s in enumerate(settings[:-1])]
+    rows = []
+    for backend in BACKENDS:
+        # Chromium's WebGPU by SwiftShader ends with the second renderer of a process.
+        alone = backend == "WebGPU"
+        parts = [(i, [s]) for i, s in enumerate(settings)] if alone else [(0, settings)]
+        marks = []
+        for first, part in parts:
+            run = ThreeRun(folder, chromium, backend, balls, part, first)
+            if not run.complete:
+                break
+            marks += run.marks
+        if len(marks) < 2 * len(settings):
+            progress.say(f"skipped: three.js by {backend} did not finish in Chromium")
+            continue
+        rows += [{"program": "three.js" if backend == "WebGL" else f"three.js, {backend}",
+                  "setting": f"{s['segments']} segments, {s['scale']} x {s['scale']}" +
+                  (", MSAA" if s["msaa"] else ""),
+                  "cpuMs": (marks[2 * i + 1] - marks[2 * i]) / s["runs"],
+                  "flip": flip(bench, folder / f"three-{i}.ppm",
+                               folder / f"three-{len(settings) - 1}.ppm")}
+                 for i, s in enumerate(settings[:-1])]
+    return rows
 
 
 def run(bench, progress):

@@ -23,6 +23,8 @@ export function keyAction(key: string, viewer: Viewer, actions: Actions): (() =>
     p: () => viewer.setQuality(viewer.quality.value === 'reference' ? 'standard' : 'reference'),
     m: () => viewer.toggleWalk(),
     t: () => viewer.toggleTurntable(),
+    1: () => (viewer.tool.value = 'select'), 2: () => (viewer.tool.value = 'move'), 3: () => (viewer.tool.value = 'turn'), 4: () => (viewer.tool.value = 'scale'),
+    Escape: () => (viewer.selected.value = null),
   };
   const light: Record<string, () => void> = {
     a: () => actions.light(0, turnStep), z: () => actions.light(0, -turnStep),

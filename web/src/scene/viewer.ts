@@ -27,6 +27,9 @@ export interface Hud {
   stats: Frame['stats'];
 }
 
+/** `select`: without handles. */
+export type SceneTool = 'select' | 'move' | 'turn' | 'scale' | 'measure';
+
 const hudEveryMs = 200;
 
 export type Canvas = { draw(bitmap: ImageBitmap, seq: number): void; size(): StageSize };
@@ -44,6 +47,7 @@ export class Viewer extends EditedScene {
   readonly fault = signal<Fault | null>(null); // of the last request; null: it gave a picture
   readonly state = computed(() => stateOf(this.fault.value, this.pictured.value, this.findings.value));
   readonly frame = signal<{ camera: LookAt | null; moving: boolean } | null>(null); // of the image on show
+  readonly tool = signal<SceneTool>('move'); // what the image is handled with
   readonly reveal = signal<{ line: number; column: number } | null>(null); // a place the editor goes to
   readonly missing = computed(() => missingOf(this.findings.value)); // files that the document names
   readonly clock: SceneClock;

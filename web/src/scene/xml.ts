@@ -184,6 +184,29 @@ export function appendChild(text: string, element: XmlElement, child: string, un
   return { from: element.openEnd, to: element.closeStart, insert: `\n${outer}${unit}${child}\n${outer}` };
 }
 
+const startsLine = (text: string, at: number): boolean => /(^|\n)[ \t]*$/.test(text.slice(Math.max(0, at - 200), at));
+
+/** Adds an element right before another one, on a line of its own where that has one. */
+export const insertBefore = (text: string, next: XmlElement, piece: string): Edit =>
+  ({ from: next.start, to: next.start, insert: startsLine(text, next.start) ? `${piece}\n${indentAt(text, next.start)}` : `${piece} ` });
+
+/** Adds an element right after another one, on a line of its own where that has one. */
+export const insertAfter = (text: string, previous: XmlElement, piece: string): Edit =>
+  ({ from: previous.end, to: previous.end, insert: startsLine(text, previous.start) ? `\n${indentAt(text, previous.start)}${piece}` : ` ${piece}` });
+
+/** Adds an element as the first of another one. */
+export function prependChild(text: string, element: XmlElement, piece: string, unit: string): Edit {
+  const first = element.children[0];
+  return first ? insertBefore(text, first, piece) : appendChild(text, element, piece, unit);
+}
+
+/** Removes an element, with its line where it has one for itself. */
+export function removeElement(text: string, { start, end }: XmlElement): Edit {
+  const after = /^[ \t]*(\r?\n|$)/.exec(text.slice(end, end + 200));
+  if (!startsLine(text, start) || !after) return { from: start, to: end, insert: '' };
+  return { from: start - indentAt(text, start).length, to: end + after[0].length, insert: '' };
+}
+
 /** Applies edits that do not overlap; insertions at one place come in the order given. */
 export function applyEdits(text: string, edits: readonly Edit[]): string {
   return edits.map((edit, order) => ({ ...edit, order })).sort((a, b) => b.from - a.from || b.order - a.order)

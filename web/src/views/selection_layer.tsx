@@ -4,6 +4,8 @@ import { elementsDrawn, idImage } from '../scene/id_image.ts';
 import { isWithin } from '../scene/hide.ts';
 import { outlineOf } from '../gizmo/outline.ts';
 import type { Viewer } from '../scene/viewer.ts';
+import { Gizmo } from './gizmo.tsx';
+import { GizmoBar } from './gizmo_bar.tsx';
 
 /** The outline of the view on show; null where nothing of the element is visible. */
 async function outline(viewer: Viewer, selected: number, ratio: number): Promise<ImageData | null> {
@@ -41,4 +43,10 @@ function Outline({ viewer }: { viewer: Viewer }) {
   return <canvas ref={canvas} class="outline" aria-hidden="true" width={1} height={1} />;
 }
 
-export const SelectionLayer = ({ viewer }: { viewer: Viewer }) => <Outline viewer={viewer} />;
+export const SelectionLayer = ({ viewer }: { viewer: Viewer }) => (
+  <>
+    <Outline viewer={viewer} />
+    <Gizmo viewer={viewer} />
+    <GizmoBar viewer={viewer} />
+  </>
+);

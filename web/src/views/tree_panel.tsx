@@ -10,6 +10,7 @@ import { lineOf, parseXml } from '../scene/xml.ts';
 import { msg, t } from '../words.ts';
 import { Icon, type IconName } from './icons.tsx';
 import { say } from './ui.tsx';
+import { Numbers } from './numbers.tsx';
 import { openPanel } from './viewer_page.tsx';
 
 const icons: Record<NodeKind, IconName> = {
@@ -188,8 +189,11 @@ export function TreePanel({ viewer }: { viewer: Viewer }) {
       {rows.length > 0 ? <Tree viewer={viewer} nodes={nodes} rows={rows} /> : <p class="note">{words ? t('Nothing of that name.') : t('The document has no scene.')}</p>}
       {selected && (
         <div class="tree-foot">
-          <p><b>{nameOf(selected)}</b> {selected.note && <span class="note">{selected.note}</span>}</p>
-          <button type="button" class="link" onClick={() => openPanel('xml')}>{t('line {line}', { line: lineOf(text, selected.element.start) })}</button>
+          <div class="tree-chosen">
+            <p><b>{nameOf(selected)}</b> {selected.note && <span class="note">{selected.note}</span>}</p>
+            <button type="button" class="link" onClick={() => openPanel('xml')}>{t('line {line}', { line: lineOf(text, selected.element.start) })}</button>
+          </div>
+          <Numbers viewer={viewer} />
         </div>
       )}
     </div>

@@ -1,1 +1,0 @@
-import{a,b,c}from"./chunk-Y4QB2GAR.js";import"./chunk-TTDBW2BX.js";import"./chunk-4P42FGW2.js";import"./chunk-OUHLJGZS.js";import"./chunk-RXPDOPUC.js";import"./chunk-3NWGMB6J.js";export{a as cameraLightOf,b as turnCameraLight,c as turnLight};

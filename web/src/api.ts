@@ -1,6 +1,7 @@
 // The service as the page uses it (api/openapi.yaml).
 import type { LookAt, Orbit } from './maths/camera.ts';
 import { askForToken, token } from './token.ts';
+import { language, t } from './words.ts';
 
 export type Severity = 'info' | 'warning' | 'error';
 
@@ -62,7 +63,7 @@ export class Problem extends Error {
     readonly findings: Finding[],
     readonly retryAfterS: number | null,
   ) {
-    super(findings[0]?.message ?? `The server answered ${status}.`);
+    super(findings[0]?.message ?? t('The server answered {status}.', { status }));
   }
   get superseded(): boolean {
     return this.code === 'busy.superseded';
@@ -77,23 +78,22 @@ export async function problemOf(response: Response): Promise<Problem> {
   const retryAfterS = Number.isFinite(retry) ? retry : null;
   try {
     const body = (await response.json()) as { code?: string; detail?: string; errors?: Finding[] };
-    const detail = body.detail ?? `The server answered ${response.status}.`;
+    const detail = body.detail ?? t('The server answered {status}.', { status: response.status });
     const findings = body.errors?.length
       ? body.errors
       : [{ code: body.code ?? '', severity: 'error' as const, message: detail }];
     return new Problem(response.status, body.code ?? '', findings, retryAfterS);
   } catch {
-    const message = `The server answered ${response.status} ${response.statusText}`.trim();
+    const message = t('The server answered {status}.', { status: `${response.status} ${response.statusText}`.trim() });
     return new Problem(response.status, '', [{ code: '', severity: 'error', message }], retryAfterS);
   }
 }
 
-/** What changes something carries the token, where there is one. */
-function withToken(init: RequestInit | undefined): RequestInit | undefined {
-  const given = token();
-  if (given === null || !init || (init.method ?? 'GET') === 'GET') return init;
-  const headers = new Headers(init.headers);
-  headers.set('Authorization', `Bearer ${given}`);
+/** With the reader's language, and the token, where there is one, for what changes something. */
+function withHeaders(init: RequestInit | undefined): RequestInit {
+  const headers = new Headers(init?.headers), known = token();
+  headers.set('Accept-Language', language.value);
+  if (known !== null && (init?.method ?? 'GET') !== 'GET') headers.set('Authorization', `Bearer ${known}`);
   return { ...init, headers };
 }
 
@@ -101,13 +101,13 @@ function withToken(init: RequestInit | undefined): RequestInit | undefined {
 export async function request(url: string, init?: RequestInit): Promise<Response> {
   for (;;) {
     const sent = token();
-    const response = await fetch(url, withToken(init));
+    const response = await fetch(url, withHeaders(init));
     if (response.ok) return response;
     const problem = await problemOf(response);
     if (response.status !== 401) throw problem;
     // Another request may have been given the token while this one was under way.
     if (token() !== sent) continue;
-    const why = sent === null ? 'Storing and deleting need the token it was started with.' : sentence(problem.findings[0] as Finding);
+    const why = sent === null ? t('Storing and deleting need the token it was started with.') : sentence(problem.findings[0] as Finding);
     if (!(await askForToken(why))) throw problem;
   }
 }
@@ -156,9 +156,9 @@ const asSentence = (text: string): string => {
 
 /** A finding as a sentence, with its place or without. */
 export function sentence(finding: Finding, placed = true): string {
-  const column = finding.column ? `, column ${finding.column}` : '';
-  const where = finding.line && placed ? `Line ${finding.line}${column}: ` : '';
-  return where + asSentence(finding.message);
+  const { line, column } = finding, text = asSentence(finding.message);
+  if (!line || !placed) return text;
+  return column ? t('Line {line}, column {column}: {text}', { line, column, text }) : t('Line {line}: {text}', { line, text });
 }
 
 /** Why a scene cannot be rendered: its finding, with a place, or the problem alone (a crash, a deadline). */
@@ -176,7 +176,7 @@ export function findingsOfFacts(facts: SceneFacts): Finding[] {
 /** What went wrong, as findings, whatever was thrown. */
 export function findingsOf(fault: unknown): Finding[] {
   if (fault instanceof Problem) return fault.findings;
-  const message = fault instanceof TypeError ? 'The server does not answer' : String((fault as Error)?.message ?? fault);
+  const message = fault instanceof TypeError ? t('The server does not answer') : String((fault as Error)?.message ?? fault);
   return [{ code: '', severity: 'error', message }];
 }
 

@@ -25,6 +25,10 @@ export function keyAction(key: string, viewer: Viewer, actions: Actions): (() =>
     t: () => viewer.toggleTurntable(),
     1: () => (viewer.tool.value = 'select'), 2: () => (viewer.tool.value = 'move'), 3: () => (viewer.tool.value = 'turn'), 4: () => (viewer.tool.value = 'scale'),
     Escape: () => (viewer.selected.value = null),
+    ',': () => viewer.stepTime(-1),
+    '.': () => viewer.stepTime(1),
+    b: () => viewer.toKey(-1),
+    n: () => viewer.toKey(1),
   };
   const light: Record<string, () => void> = {
     a: () => actions.light(0, turnStep), z: () => actions.light(0, -turnStep),

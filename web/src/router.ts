@@ -25,7 +25,7 @@ export interface ViewLink {
 
 /** Picture options that travel in a link. */
 export const linkedOptions = [
-  'shading', 'aa', 'filter', 'error', 'axes', 'curves', 'focus', 'debug', 'background', 'layer', 'viewer', 'specular', 'entity',
+  'shading', 'aa', 'filter', 'error', 'axes', 'curves', 'focus', 'debug', 'background', 'layer', 'viewer', 'specular', 'entity', 'transparency', 'shadows',
 ] as const;
 
 export function parsePlace(hash: string): Place {

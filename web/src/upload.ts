@@ -4,6 +4,7 @@ import { patient, Problem, query, request, type Finding, type SceneFacts } from 
 import { chooseFiles } from './files.ts';
 import { scenePlace } from './router.ts';
 import { bundleOf, type Loose, type NamedFile } from './scene/bundle.ts';
+import { t } from './words.ts';
 
 export const uploading = signal<string>('');
 export const uploadProblem = signal<{ title: string; findings: Finding[] } | null>(null);
@@ -17,9 +18,9 @@ const fault = (title: string, message: string): void => {
 
 /** Sends what was dropped and opens it; what is wrong is shown as sentences. */
 export async function openFiles(files: readonly NamedFile[]): Promise<void> {
-  if (files.length === 0) return fault('Nothing to open', 'There is no file among what was dropped');
+  if (files.length === 0) return fault(t('Nothing to open'), t('There is no file among what was dropped'));
   const bundle = await bundleOf(files);
-  if ('message' in bundle) return fault('This cannot be opened', bundle.message);
+  if ('message' in bundle) return fault(t('This cannot be opened'), bundle.message);
   uploading.value = bundle.name;
   uploadProblem.value = null;
   try {
@@ -31,10 +32,10 @@ export async function openFiles(files: readonly NamedFile[]): Promise<void> {
     const main = bundle.loose?.files.find(({ path }) => path === bundle.loose?.main);
     if (bundle.loose && main && problem instanceof Problem && [400, 401, 403, 422].includes(problem.status)) {
       local.value = { name: bundle.name, loose: bundle.loose, text: await main.file.text(), count: (local.value?.count ?? 0) + 1 };
-      if (problem.status === 401 || problem.status === 403) uploadProblem.value = { title: 'Shown, but not stored', findings };
+      if (problem.status === 401 || problem.status === 403) uploadProblem.value = { title: t('Shown, but not stored'), findings };
       location.hash = '#/new';
-    } else if (findings.length > 0) uploadProblem.value = { title: `“${bundle.name}” has problems`, findings };
-    else fault(`“${bundle.name}” was not sent`, 'The server does not answer');
+    } else if (findings.length > 0) uploadProblem.value = { title: t('“{name}” has problems', { name: bundle.name }), findings };
+    else fault(t('“{name}” was not sent', { name: bundle.name }), t('The server does not answer'));
   } finally {
     uploading.value = '';
   }

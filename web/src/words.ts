@@ -31,10 +31,6 @@ export function preferredLanguage(stored: string | null, browser: readonly strin
 const catalogue = signal<Catalogue>({});
 export const language = signal<Language>('en');
 
-effect(() => {
-  document.documentElement.lang = language.value;
-});
-
 async function use(chosen: Language): Promise<void> {
   const loaded = chosen === 'en' ? {} : (await loaders[chosen]()).default;
   batch(() => {
@@ -43,9 +39,13 @@ async function use(chosen: Language): Promise<void> {
   });
 }
 
-/** Of the first view: in English where the translation does not come. */
-export const firstWords = (): Promise<void> =>
-  use(preferredLanguage(recall('language'), navigator.languages ?? [])).catch((fault: unknown) => console.warn(fault));
+/** Of the first view: in English where the translation does not come. The document has the language from then on. */
+export async function firstWords(): Promise<void> {
+  effect(() => {
+    document.documentElement.lang = language.value;
+  });
+  await use(preferredLanguage(recall('language'), navigator.languages)).catch((fault: unknown) => console.warn(fault));
+}
 
 /** Rejects where the server does not send the translation. */
 export async function chooseLanguage(value: string): Promise<void> {

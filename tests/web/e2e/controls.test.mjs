@@ -133,6 +133,19 @@ test('every setting asks for its option, draws another picture, and back', async
   await view.close();
 });
 
+test('what is see-through is drawn model by model, exactly, or opaque', async () => {
+  // Two sheets that cross: sorted as wholes one is wrong in half of the image.
+  const sheet = (turn, colour) => `<group><transform><rotate angle="${turn}" x="0" y="1" z="0"/><rotate angle="90" x="1" y="0" z="0"/></transform>
+    <models><model file="plane_3_1.3d"><color><emissive ${colour} A="128"/><diffuse R="0" G="0" B="0" A="128"/></color></model></models></group>`;
+  const text = `<world><window width="320" height="240"/><camera><position x="0" y="0.5" z="5"/><lookAt x="0" y="0" z="0"/></camera>
+    <lights><light type="directional" x="0" y="0" z="1"/></lights>${sheet(40, 'R="255" G="0" B="0"')}${sheet(-40, 'R="0" G="0" B="255"')}</world>`;
+  const stored = await fetch(`${server.url}/v1/scenes?public=0`, { method: 'POST', headers: { 'Content-Type': 'application/xml' }, body: text });
+  assert.ok(stored.ok, await stored.clone().text());
+  const view = await checkSettings((await stored.json()).id, (page) => ['exact', 'off'].map((word) => ['transparency', word,
+    () => page.getByRole('combobox', { name: 'See-through' }).selectOption(word), () => page.getByRole('combobox', { name: 'See-through' }).selectOption('')]));
+  await view.close();
+});
+
 test('the background is chosen, and given back to the scene', async () => {
   const view = await checkSettings('carousel', (page) => [
     ['background', '#ff8800', () => page.locator('input[type=color]').fill('#ff8800'), () => page.getByRole('button', { name: 'the scene’s own' }).click()],

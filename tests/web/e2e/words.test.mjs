@@ -96,3 +96,48 @@ test('light mode under a finger turns the light, not the camera', async () => {
   assert.equal(view.full().at(-1).method, 'POST');
   await view.close();
 });
+
+/** The translations that a reload asks for. */
+async function translationsOf(view) {
+  const out = [], note = (request) => out.push(.../\/assets\/(pt|es|cs)-\w+\.js$/.exec(request.url())?.slice(1) ?? []);
+  view.page.on('request', note);
+  await view.page.reload();
+  await settled(view);
+  view.page.off('request', note);
+  return out;
+}
+
+test('the page is in the browser’s language; the choice is kept, and findings and dates follow it', async () => {
+  const text = '<world><group><models><model file="sphere_1_8_4.3d" colr="red"/></models></group></world>';
+  const stored = await fetch(`${server.url}/v1/scenes?public=0`, { method: 'POST', headers: { 'Content-Type': 'application/xml' }, body: text });
+  assert.ok(stored.ok, await stored.clone().text());
+  const view = await openPage(browser, `${server.url}/#/scene/${(await stored.json()).id}`, { locale: 'pt-BR', viewport: { width: 1280, height: 800 } });
+  await settled(view);
+  const { page } = view, language = () => page.locator('html').getAttribute('lang'), findings = async () => {
+    const tab = page.locator('.drawer-tab');
+    await tab.waitFor();
+    if ((await tab.getAttribute('aria-expanded')) === 'false') await tab.click();
+    return page.locator('.drawer .findings > li').first().innerText();
+  };
+  assert.equal(await language(), 'pt');
+  await page.getByRole('button', { name: 'Anular' }).waitFor();
+  assert.match(await findings(), /^Linha 1, coluna \d+: /);
+  assert.deepEqual(await translationsOf(view), ['pt'], 'one translation is loaded');
+  await page.getByRole('combobox', { name: 'Língua' }).selectOption('cs');
+  await page.getByRole('button', { name: 'Sdílet' }).waitFor();
+  await page.waitForFunction(() => /^Řádek 1, sloupec/.test(document.querySelector('.drawer .findings > li')?.innerText ?? ''));
+  assert.equal(await language(), 'cs');
+  await page.reload();
+  await settled(view);
+  assert.equal(await language(), 'cs');
+  await page.getByRole('combobox', { name: 'Jazyk' }).selectOption('en');
+  await page.getByRole('button', { name: 'Share' }).waitFor();
+  assert.match(await findings(), /^Line 1, column/);
+  await view.close();
+});
+
+test('in English no translation is loaded', async () => {
+  const view = await open({});
+  assert.deepEqual(await translationsOf(view), []);
+  await view.close();
+});

@@ -6,7 +6,9 @@ import { curesOf } from '../../../web/derive/cures.ts';
 import { schemaOf } from '../../../web/derive/schema.ts';
 import { faultOf, type SceneFacts } from '../../../web/src/api.ts';
 import { bundleOf, mainScene, stripCommonFolder } from '../../../web/src/scene/bundle.ts';
+import { animatedWebpOf, apngOf, frameCount, frameTime } from '../../../web/src/scene/animation.ts';
 import { lapTime } from '../../../web/src/scene/clock.ts';
+import { keysOf, moversOf } from '../../../web/src/scene/motion.ts';
 
 test('every code of the catalogue has its cure', () => {
   const catalogue = readFileSync('api/errors.md', 'utf8');
@@ -86,4 +88,39 @@ test('why a scene cannot be rendered is told with its place, or without one', ()
   assert.deepEqual(of({ diagnostics: [], problem: crash }), { ...crash, severity: 'error' });
   assert.deepEqual(of({ diagnostics: [error], problem: crash }), { ...crash, severity: 'error' });
   assert.equal(of({ diagnostics: [error] }), error);
+});
+
+test('the timeline has a key wherever something is where it began', () => {
+  const text = `<world><group name="Earth"><transform><rotate time="4" y="1"/><translate time="6"><point/><point/><point/><point/></translate></transform>
+    <group><transform><rotate seconds="-8" x="1"/><rotate angle="30"/><translate time="3" x="1"/></transform></group></group></world>`;
+  const movers = moversOf(text);
+  assert.deepEqual(movers, [{ kind: 'turn', name: 'Earth', seconds: 4 }, { kind: 'lap', name: 'Earth', seconds: 6 }, { kind: 'turn', name: 'Earth', seconds: 8 }]);
+  const keys = keysOf(movers, 0, 12);
+  assert.deepEqual(keys.map(({ time }) => time), [0, 4, 6, 8, 12]);
+  assert.deepEqual(keys[3]?.movers.map(({ mover, count }) => [mover.seconds, count]), [[4, 2], [8, 1]]);
+  assert.deepEqual(keysOf(movers, 5, 4).map(({ time }) => time), [6, 8], 'a range that begins later');
+  assert.deepEqual(keysOf([{ kind: 'turn', name: '', seconds: 0.001 }], 0, 60), [], 'too many to see');
+  assert.deepEqual(moversOf('<world><rotate time="0"/><rotate time="x"/><rotate time="1e999"'), []);
+});
+
+test('an animation has the frames, moments and length that were chosen', () => {
+  const plan = { format: 'apng', width: 4, height: 3, fps: 10, from: 2, seconds: 6, speed: 2 } as const;
+  assert.equal(frameCount(plan), 30);
+  assert.deepEqual([0, 1, 29].map((index) => frameTime(plan, index)), [2, 2.2, 7.8]);
+});
+
+test('frames that are no images, or of other sizes, are no animation', () => {
+  assert.throws(() => apngOf([new Uint8Array(40)], 10));
+  assert.throws(() => animatedWebpOf([new TextEncoder().encode('RIFF0000WEBPVP8 \xff\xff\xff\xff')], 10, { width: 1, height: 1 }));
+  const png = (width: number): Uint8Array => {
+    const head = Buffer.alloc(25);
+    head.writeUInt32BE(13, 0);
+    head.write('IHDR', 4, 'latin1');
+    head.writeUInt32BE(width, 8);
+    head.writeUInt32BE(1, 12);
+    const data = Buffer.from([0, 0, 0, 1, 0x49, 0x44, 0x41, 0x54, 7, 0, 0, 0, 0]);
+    return new Uint8Array(Buffer.concat([Buffer.from([0x89, 0x50, 0x4e, 0x47, 13, 10, 26, 10]), head, data]));
+  };
+  assert.throws(() => apngOf([png(1), png(2)], 10));
+  assert.ok(apngOf([png(1), png(1)], 10).size > 100);
 });

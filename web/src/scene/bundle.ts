@@ -1,5 +1,6 @@
 // Files that make a scene together: which is the scene, and under which paths the others go.
 import { noChanges, type FileChanges } from './scene_files.ts';
+import { t } from '../words.ts';
 
 export interface NamedFile {
   path: string; // with forward slashes
@@ -145,17 +146,17 @@ export async function bundleOf(files: readonly NamedFile[]): Promise<Bundle | { 
   const only = kept.length === 1 ? kept[0] : undefined;
   const archive = only && archives.find(([ending]) => ending.test(only.path));
   const bytes = kept.reduce((sum, { file }) => sum + file.size, 0);
-  if (bytes > maxBytes) return { message: `These files are ${(bytes / 1048576).toFixed(1)} MiB; the server takes 16 MiB` };
+  if (bytes > maxBytes) return { message: t('These files are {size} MiB; the server takes 16 MiB', { size: (bytes / 1048576).toFixed(1) }) };
   if (only && archive)
     return { name: only.path, loose: null, body: () => ({ body: only.file, headers: { 'Content-Type': archive[1] } }) };
-  if (kept.length > maxFiles) return { message: `These are ${kept.length} files; the server takes ${maxFiles} at once` };
+  if (kept.length > maxFiles) return { message: t('These are {count} files; the server takes {most} at once', { count: kept.length, most: maxFiles }) };
   const paths = stripCommonFolder(kept.map(({ path }) => path));
   const parts = kept.map(({ file }, i) => ({ path: paths[i] as string, file: file as Blob }));
   let main = mainScene(paths);
   if (!main) {
     const meshes = paths.filter((path) => meshEndings.test(path));
     if (meshes.length === 0)
-      return { message: 'There is no scene (.xml), mesh (.3d, .3db, .obj, .ply, .stl, .off, .tri, .patch) or archive (.zip, .tar, .tar.gz) among these files' };
+      return { message: t('There is no scene (.xml), mesh (.3d, .3db, .obj, .ply, .stl, .off, .tri, .patch) or archive (.zip, .tar, .tar.gz) among these files') };
     main = 'scene.xml';
     parts.push({ path: main, file: new Blob([meshScene(meshes)], { type: 'application/xml' }) });
   }

@@ -1,6 +1,9 @@
 // The time of an animation: one lap of a range, played at a speed.
 import { signal } from '@preact/signals';
 
+/** A step of one frame. */
+export const frameSeconds = 1 / 25;
+
 export class SceneClock {
   readonly time = signal(0);
   readonly playing = signal(false);
@@ -21,6 +24,11 @@ export class SceneClock {
 
   seek(seconds: number): void {
     this.time.value = Math.max(0, seconds);
+  }
+
+  /** Within the lap. */
+  step(seconds: number): void {
+    this.seek(lapTime(this.time.value + seconds, this.from.value, this.lap.value));
   }
 
   toggle(): void {

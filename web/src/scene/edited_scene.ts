@@ -9,6 +9,7 @@ import type { Origin } from './frame.ts';
 import { History, type Moment, type WrittenHistory } from './history.ts';
 import { isMarked, mover, moveMarks, noMarks, type Marks } from './marks.ts';
 import { isChanged, noChanges, type FileChanges } from './scene_files.ts';
+import { t } from '../words.ts';
 
 /** By `typing` (drawn when it pauses), by `dragging` a slider (drawn as a movement), or by one step that is `done`. */
 export type Editing = 'typing' | 'dragging' | 'done';
@@ -21,7 +22,6 @@ interface KeptDraft {
   history: WrittenHistory;
 }
 
-const restoredNotice = 'Your edits of this scene were restored.';
 const draftDelayMs = 200;
 
 export abstract class EditedScene {
@@ -83,7 +83,7 @@ export abstract class EditedScene {
       await this.setMarks(marks);
     }
     if (this.edited.value && this.id !== null)
-      this.notice.value = !draft || base === draft.base ? restoredNotice : 'Your edits were restored; the scene on the server has changed since.';
+      this.notice.value = !draft || base === draft.base ? t('Your edits of this scene were restored.') : t('Your edits were restored; the scene on the server has changed since.');
   }
 
   async loadText(): Promise<void> {
@@ -237,7 +237,7 @@ export abstract class EditedScene {
     if (text === null || !this.isRemembered) return;
     const base = hashText(this.original.value ?? ''), history = this.history.write();
     const isSaved = saveDraft(this.id, this.edited.value ? { text, base } : null);
-    const refuse = (): void => void (this.notice.value = 'This browser keeps no edits: copy the XML before you leave.');
+    const refuse = (): void => void (this.notice.value = t('This browser keeps no edits: copy the XML before you leave.'));
     if (!isSaved) refuse();
     if (this.loose) return;
     const marks = this.marks.value, isWorth = isChanged(this.files.value) || isMarked(marks) || history.texts.length > 1;

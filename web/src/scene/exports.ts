@@ -4,6 +4,7 @@ import { listFiles } from './scene_files.ts';
 import type { Viewer } from './viewer.ts';
 import { spellings } from './language.ts';
 import { attributeOf, parseXml, walkXml } from './xml.ts';
+import { t } from '../words.ts';
 
 const table = Array.from({ length: 256 }, (_, n) => {
   let c = n;
@@ -109,7 +110,7 @@ export function stlOf(obj: string): Blob {
 /** A generated mesh. The service knows no STL: it is made from OBJ here. */
 export async function meshAs(name: string, form: MeshForm): Promise<Blob> {
   const call = callOf(name);
-  if (!call) throw new Error(`“${name}” is the name of no shape`);
+  if (!call) throw new Error(t('“{name}” is the name of no shape', { name }));
   const response = await request(`v1/primitives/${call.shape}?${query({ args: call.args, format: form === 'stl' ? 'obj' : form })}`);
   return form === 'stl' ? stlOf(await response.text()) : response.blob();
 }

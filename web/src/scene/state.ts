@@ -35,7 +35,8 @@ export function stateOf(fault: Fault | null, pictured: boolean, findings: readon
 /** Seconds until a server that does not answer is asked again: 1, 2, 4, 8, then every 15. */
 export const retryAfterS = (attempt: number): number => Math.min(15, 2 ** Math.min(attempt, 4));
 
-const keyOf = ({ code, file, line, column, message }: Finding): string => JSON.stringify([code, file, line, column, message]);
+// Not by their messages: those of an image are in English, those of a document in the reader's language.
+const keyOf = ({ code, file, line, column }: Finding): string => JSON.stringify([code, file, line, column]);
 
 /**
  * All findings of a picture. Its header holds the first ones only; the document's list has all of them, unless it

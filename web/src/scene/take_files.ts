@@ -4,13 +4,14 @@ import type { NamedFile } from './bundle.ts';
 import { withRepair } from './file_names.ts';
 import { missingFor, pathFor, withFile, type Missing } from './scene_files.ts';
 import type { Viewer } from './viewer.ts';
+import { t } from '../words.ts';
 
 const maxFileBytes = 16 * 1024 * 1024; // the service takes no larger bodies unless it is set to
 
 /** Adds files: each in the place of one that is missing and bears its name, or of `missing`, else under its own path. */
 export async function addFiles(viewer: Viewer, files: readonly NamedFile[], missing?: Missing): Promise<void> {
   const tooLarge = files.find(({ file }) => file.size > maxFileBytes);
-  if (tooLarge) throw new Error(`“${tooLarge.path}” has ${(tooLarge.file.size / 1048576).toFixed(1)} MB; the server takes 16 MB`);
+  if (tooLarge) throw new Error(t('“{path}” has {size} MB; the server takes 16 MB', { path: tooLarge.path, size: (tooLarge.file.size / 1048576).toFixed(1) }));
   const all = viewer.missing.value;
   await viewer.changeFiles((text, changes) => files.reduce((now, { path, file }) => {
     const place = missing ?? missingFor(all, file);

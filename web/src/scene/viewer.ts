@@ -9,13 +9,15 @@ import { FrameRate, takeWireTime, type Latency } from '../frames/timing.ts';
 import { orbitOf, walkOf, walkTarget, type LookAt, type Orbit, type Walk } from '../maths/camera.ts';
 import { formatView, replaceAddress, scenePlace, type ViewLink } from '../router.ts';
 import type { Loose } from './bundle.ts';
-import { SceneClock } from './clock.ts';
+import { frameSeconds, SceneClock } from './clock.ts';
 import type { Draft } from './drafts.ts';
 import { EditedScene, type Editing } from './edited_scene.ts';
+import type { Key } from './motion.ts';
 import { missingOf, type FileChanges } from './scene_files.ts';
 import { retryAfterS, sceneFaultOf, stateOf, wholeFindings, type Fault } from './state.ts';
 import { cameraOptions, qualityOptions, sizeOptions, type Quality, type StageSize } from './picture_options.ts';
 import { bodyOf, decodeFrame, fetchPicture, newSession, type Frame, type Origin } from './frame.ts';
+import { t } from '../words.ts';
 
 export interface Hud {
   width: number;
@@ -50,6 +52,7 @@ export class Viewer extends EditedScene {
   readonly tool = signal<SceneTool>('move'); // what the image is handled with
   readonly reveal = signal<{ line: number; column: number } | null>(null); // a place the editor goes to
   readonly missing = computed(() => missingOf(this.findings.value)); // files that the document names
+  readonly keys = signal<readonly Key[]>([]); // of its animation
   readonly clock: SceneClock;
   places: ModelPlaces | null = null; // of the stored document
   home: LookAt | null = null;
@@ -65,6 +68,7 @@ export class Viewer extends EditedScene {
   private asked = ''; // the size of the last picture that was asked for
   private closed = false;
   private stored: SceneFacts | null = null; // of the scene without edits
+  private busyNotice = '';
   private attempts = 0; // at a server that does not answer
   private openTimer: ReturnType<typeof setTimeout> | undefined;
   private known: { text: string; files: FileChanges; facts: (SceneFacts & Partial<ModelPlaces>) | null; findings: readonly Finding[] } | null = null; // of the edited document
@@ -138,6 +142,13 @@ export class Viewer extends EditedScene {
     this.showFacts(facts);
     this.findings.value = findingsOfFacts(facts);
     if (!facts.valid) await this.loadText();
+  }
+
+  /** Findings come in the reader's language: they are asked for anew. */
+  async languageChanged(): Promise<void> {
+    this.known = null;
+    if (this.id !== null && this.stored) await this.readFacts(this.id);
+    this.loop.settle();
   }
 
   close(): void {
@@ -292,7 +303,7 @@ export class Viewer extends EditedScene {
   private failed(fault: unknown): number | null {
     if (fault instanceof Problem && fault.busy) {
       const wait = Math.max(0.3, fault.retryAfterS ?? 1);
-      this.notice.value = `The server is busy; trying again in ${Math.ceil(wait)} s.`;
+      this.notice.value = this.busyNotice = t('The server is busy; trying again in {seconds} s.', { seconds: Math.ceil(wait) });
       return wait * 1000;
     }
     this.clock.stop();
@@ -313,7 +324,7 @@ export class Viewer extends EditedScene {
   }
 
   private setFindings(found: Finding[]): void {
-    if (this.notice.value.startsWith('The server is busy')) this.notice.value = '';
+    if (this.notice.value === this.busyNotice) this.notice.value = '';
     if (JSON.stringify(found) !== JSON.stringify(this.findings.value)) this.findings.value = found;
   }
 
@@ -332,6 +343,24 @@ export class Viewer extends EditedScene {
   settle(): void {
     this.loop.settle();
     this.keepLink();
+  }
+
+  /** So many frames on, or back; playing ends. */
+  stepTime(frames: number): void {
+    if (!this.clock.animated.value) return;
+    this.clock.stop();
+    this.clock.step(frames * frameSeconds);
+    this.moved();
+  }
+
+  /** To the next key, or the one before. */
+  toKey(direction: 1 | -1): void {
+    const now = this.clock.time.value, times = this.keys.value.map(({ time }) => time);
+    const key = direction > 0 ? (times.find((time) => time > now + 5e-4) ?? times[0]) : (times.filter((time) => time < now - 5e-4).at(-1) ?? times.at(-1));
+    if (key === undefined) return;
+    this.clock.stop();
+    this.clock.seek(key);
+    this.moved();
   }
 
   changeOrbit(change: (orbit: Orbit) => Orbit): void {

@@ -72,12 +72,12 @@ function UploadNote() {
   const problem = uploadProblem.value;
   return (
     <>
-      {uploading.value && <div class="overlay" role="status"><p>Sending “{uploading.value}”…</p></div>}
-      {dropping.value && <div class="overlay drop" aria-hidden="true"><p>{takesParts.value ? 'Drop a texture to add it to this scene; a scene, a folder or a zip to open it' : 'Drop a scene, a mesh, a folder or a zip to open it'}</p></div>}
+      {uploading.value && <div class="overlay" role="status"><p>{t('Sending “{name}”…', { name: uploading.value })}</p></div>}
+      {dropping.value && <div class="overlay drop" aria-hidden="true"><p>{takesParts.value ? t('Drop a texture to add it to this scene; a scene, a folder or a zip to open it') : t('Drop a scene, a mesh, a folder or a zip to open it')}</p></div>}
       {problem && (
         <div class="note-box" role="alert">
           <div><h2>{problem.title}</h2><Findings findings={problem.findings} /></div>
-          <Tool icon="close" label="Close" onClick={() => (uploadProblem.value = null)} />
+          <Tool icon="close" label={t('Close')} onClick={() => (uploadProblem.value = null)} />
         </div>
       )}
     </>

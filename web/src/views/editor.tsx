@@ -10,6 +10,7 @@ import { parseXml } from '../scene/xml.ts';
 import { Tool } from './ui.tsx';
 import { panel } from './viewer_page.tsx';
 import { saveBlob } from './save.ts';
+import { t } from '../words.ts';
 
 export function Editor({ viewer }: { viewer: Viewer }) {
   const host = useRef<HTMLDivElement>(null);
@@ -58,15 +59,15 @@ export function Editor({ viewer }: { viewer: Viewer }) {
   return (
     <div class="editor">
       {problem && <p class="problem" role="alert">{problem}</p>}
-      {!ready && !problem && <p class="note">Loading…</p>}
+      {!ready && !problem && <p class="note">{t('Loading…')}</p>}
       <div class="code" ref={host} />
       <div class="editor-foot">
-        <span class="note" role="status">{viewer.edited.value ? 'Edited; kept in this browser.' : 'As on the server.'}</span>
+        <span class="note" role="status">{viewer.edited.value ? t('Edited; kept in this browser.') : t('As on the server.')}</span>
         <span class="space" />
-        {viewer.edited.value && <button type="button" class="link" onClick={() => viewer.discardEdits()}>Discard</button>}
-        <Tool icon="download" label="Download the XML" onClick={save} />
+        {viewer.edited.value && <button type="button" class="link" onClick={() => viewer.discardEdits()}>{t('Discard')}</button>}
+        <Tool icon="download" label={t('Download the XML')} onClick={save} />
         <button type="button" class="button small" disabled={storing || !ready} onClick={() => void store()}>
-          {storing ? 'Storing…' : 'Store and share'}
+          {storing ? t('Storing…') : t('Store and share')}
         </button>
       </div>
     </div>

@@ -31,7 +31,7 @@ export function EmbedPage({ id, view }: { id: string; view: URLSearchParams }) {
           <a class="embed-link" href={`./${scenePlace(id)}`} target="_blank" rel="noopener"
             onClick={(event) => (event.currentTarget.href = `./${viewer.link()}`)}>{title}</a>
         </div>
-        <TimeBar viewer={viewer} />
+        <TimeBar viewer={viewer} isPlain />
       </div>
     </main>
   );

@@ -11,10 +11,11 @@ import type { Viewer } from '../scene/viewer.ts';
 import { Icon } from './icons.tsx';
 import { saveBlob } from './save.ts';
 import { dropHere, say, Section, Tool } from './ui.tsx';
+import { msg, t } from '../words.ts';
 
 const sizeText = (bytes: number): string =>
-  bytes < 1024 ? `${bytes} bytes` : bytes < 1048576 ? `${(bytes / 1024).toFixed(0)} kB` : `${(bytes / 1048576).toFixed(1)} MB`;
-const stateText = { kept: '', added: 'added here', replaced: 'replaced here' } as const;
+  bytes < 1024 ? t('{count} bytes', { count: bytes }) : bytes < 1048576 ? `${(bytes / 1024).toFixed(0)} kB` : `${(bytes / 1048576).toFixed(1)} MB`;
+const stateText = { kept: '', added: msg('added here'), replaced: msg('replaced here') } as const;
 
 const attempt = (act: () => Promise<unknown>): void =>
   void act().catch((fault: unknown) => say(findingsOf(fault).map((one) => sentence(one)).join(' ')));
@@ -31,9 +32,9 @@ function Row({ viewer, file, came }: { viewer: Viewer; file: ListedFile; came: b
     const path = pathFor(to.trim());
     if (path === '' || path === file.path) return;
     const list = await viewer.loadFiles();
-    if (path === list.main || listFiles(list.files, viewer.files.value).some((one) => one.path === path)) return say(`There is a file “${path}” already.`);
+    if (path === list.main || listFiles(list.files, viewer.files.value).some((one) => one.path === path)) return say(t('There is a file “{path}” already.', { path }));
     const content = await fileOf(viewer, file.path);
-    if (!content) return say(`“${file.path}” cannot be read any more.`);
+    if (!content) return say(t('“{path}” cannot be read any more.', { path: file.path }));
     await viewer.changeFiles((old, files) =>
       ({ text: renameInText(old, file.path, path), changes: withFile(withoutFile(files, file.path, came), path, content) }));
   };
@@ -48,10 +49,10 @@ function Row({ viewer, file, came }: { viewer: Viewer; file: ListedFile; came: b
           event.preventDefault();
           attempt(() => rename(name));
         }}>
-          <input type="text" aria-label={`New name of ${file.path}`} value={name} spellcheck={false} ref={(input) => input?.focus()}
+          <input type="text" aria-label={t('New name of {path}', { path: file.path })} value={name} spellcheck={false} ref={(input) => input?.focus()}
             onInput={(event) => setName(event.currentTarget.value)}
             onKeyDown={(event) => event.key === 'Escape' && setName(null)} />
-          <button type="submit" class="button small">Rename</button>
+          <button type="submit" class="button small">{t('Rename')}</button>
         </form>
       </li>
     );
@@ -61,12 +62,12 @@ function Row({ viewer, file, came }: { viewer: Viewer; file: ListedFile; came: b
       if (first) attempt(() => viewer.changeFiles((old, changes) => ({ text: old, changes: withFile(changes, file.path, first.file) })));
     })}>
       <span class="file-name">{file.path}</span>
-      <span class="note">{[sizeText(file.bytes), uses === 0 ? 'not named in the XML' : '', stateText[file.state]].filter(Boolean).join(' · ')}</span>
+      <span class="note">{[sizeText(file.bytes), uses === 0 ? t('not named in the XML') : '', t(stateText[file.state])].filter(Boolean).join(' · ')}</span>
       <span class="tools">
-        <Tool icon="download" label={`Download ${file.path}`} onClick={() => attempt(save)} />
-        <Tool icon="upload" label={`Replace ${file.path}`} onClick={() => attempt(replace)} />
-        <Tool icon="rename" label={`Rename ${file.path}`} onClick={() => setName(file.path)} />
-        <Tool icon="close" label={`Remove ${file.path}`}
+        <Tool icon="download" label={t('Download {path}', { path: file.path })} onClick={() => attempt(save)} />
+        <Tool icon="upload" label={t('Replace {path}', { path: file.path })} onClick={() => attempt(replace)} />
+        <Tool icon="rename" label={t('Rename {path}', { path: file.path })} onClick={() => setName(file.path)} />
+        <Tool icon="close" label={t('Remove {path}', { path: file.path })}
           onClick={() => attempt(() => viewer.changeFiles((old, files) => ({ text: old, changes: withoutFile(files, file.path, came) })))} />
       </span>
     </li>
@@ -77,14 +78,14 @@ function Meshes({ text, own }: { text: string; own: ReadonlySet<string> }) {
   const names = useMemo(() => meshNames(text).filter((name) => callOf(name) && !own.has(pathFor(name))), [text, own]);
   if (names.length === 0) return null;
   return (
-    <Section title={`Generated meshes (${names.length})`}>
+    <Section title={t('Generated meshes ({count})', { count: names.length })}>
       <ul class="files">
         {names.slice(0, 100).map((name) => (
           <li key={name} class="file-row">
             <span class="file-name">{name}</span>
             <span class="tools">
               {meshForms.map((form) => (
-                <button key={form} type="button" class="button small" aria-label={`Download ${name} as ${form.toUpperCase()}`}
+                <button key={form} type="button" class="button small" aria-label={t('Download {name} as {format}', { name, format: form.toUpperCase() })}
                   onClick={() => attempt(async () => saveBlob(await meshAs(name, form), `${baseName(name).replace(/\.[^.]+$/, '')}.${form}`))}>{form.toUpperCase()}</button>
               ))}
             </span>
@@ -104,45 +105,45 @@ export function FilesPanel({ viewer }: { viewer: Viewer }) {
   const files = came ? listFiles(came.files, changes) : [];
   const own = useMemo(() => new Set(files.map((one) => one.path)), [came, changes]);
   if (problem) return <p class="problem" role="alert">{problem}</p>;
-  if (!came || text === null) return <p class="note">Loading…</p>;
-  const title = viewer.facts.value?.title || 'scene', glb = viewer.edited.value ? undefined : viewer.facts.value?.links.model;
+  if (!came || text === null) return <p class="note">{t('Loading…')}</p>;
+  const title = viewer.facts.value?.title || t('Scene'), glb = viewer.edited.value ? undefined : viewer.facts.value?.links.model;
   const add = (given: readonly NamedFile[]): void => attempt(() => addFiles(viewer, given));
   return (
     <div class="sections" {...dropHere(add)}>
       {missing.length > 0 && (
-        <Section title={`Missing (${missing.length})`}>
+        <Section title={t('Missing ({count})', { count: missing.length })}>
           <ul class="files">
             {missing.map((one) => (
               <li key={one.name} class="file-row missing" {...dropHere((given) => given[0] && attempt(() => addFiles(viewer, given.slice(0, 1), one)))}>
                 <span class="file-name">{one.name}</span>
-                <span class="note">{one.finding.line ? `named in line ${one.finding.line}` : 'named in the scene'}; drop it here</span>
-                <button type="button" class="button small" aria-label={`Add the file ${one.name}`} onClick={() => attempt(() => chooseFor(viewer, one))}>
-                  <Icon name="upload" />Add the file
+                <span class="note">{one.finding.line ? t('named in line {line}; drop it here', { line: one.finding.line }) : t('named in the scene; drop it here')}</span>
+                <button type="button" class="button small" aria-label={t('Add the file {name}', { name: one.name })} onClick={() => attempt(() => chooseFor(viewer, one))}>
+                  <Icon name="upload" />{t('Add the file')}
                 </button>
               </li>
             ))}
           </ul>
         </Section>
       )}
-      <Section title={`Files (${files.length + 1})`}>
+      <Section title={t('Files ({count})', { count: files.length + 1 })}>
         <ul class="files">
           <li class="file-row">
             <span class="file-name">{came.main}</span>
-            <span class="note">the scene’s XML</span>
+            <span class="note">{t('the scene’s XML')}</span>
             <span class="tools">
-              <Tool icon="download" label="Download the scene’s XML" onClick={() => saveBlob(new Blob([text], { type: 'application/xml' }), baseName(came.main))} />
+              <Tool icon="download" label={t('Download the scene’s XML')} onClick={() => saveBlob(new Blob([text], { type: 'application/xml' }), baseName(came.main))} />
             </span>
           </li>
           {files.map((file) => <Row key={file.path} viewer={viewer} file={file} came={came.files.some((one) => one.path === file.path)} />)}
         </ul>
         <div class="buttons">
-          <button type="button" class="button small" onClick={() => void chooseFiles(false).then(add)}><Icon name="plus" />Add files</button>
+          <button type="button" class="button small" onClick={() => void chooseFiles(false).then(add)}><Icon name="plus" />{t('Add files')}</button>
           <button type="button" class="button small" onClick={() => attempt(async () => saveBlob(await everything(viewer), `${title.replaceAll(/[^\w.-]+/g, '-')}.zip`))}>
-            <Icon name="download" />All as zip
+            <Icon name="download" />{t('All as zip')}
           </button>
-          {glb && <a class="button small" href={`${glb}?format=glb`} download><Icon name="download" />As GLB</a>}
+          {glb && <a class="button small" href={`${glb}?format=glb`} download><Icon name="download" />{t('As GLB')}</a>}
         </div>
-        <p class="note">Drop files here to add them. {changes.added.length + changes.removed.length > 0 && 'Changes are kept in this browser until the scene is stored.'}</p>
+        <p class="note">{t('Drop files here to add them.')} {changes.added.length + changes.removed.length > 0 && t('Changes are kept in this browser until the scene is stored.')}</p>
       </Section>
       <Meshes text={text} own={own} />
     </div>

@@ -6,6 +6,7 @@ import { scenePlace, searchWords as words } from '../router.ts';
 import { thumbnail } from '../thumbnails.ts';
 import { pickFiles } from '../upload.ts';
 import { Icon } from './icons.tsx';
+import { language, plural, t } from '../words.ts';
 
 interface Listing {
   words: string;
@@ -31,7 +32,7 @@ async function load(page: number): Promise<void> {
     listing.value = { words: text, scenes, pages: answer.pages, page, total: answer.total };
     problem.value = '';
   } catch (fault) {
-    if (number === request) problem.value = `The scenes cannot be listed. ${findingsOf(fault).map((one) => sentence(one)).join(' ')}`;
+    if (number === request) problem.value = t('The scenes cannot be listed. {why}', { why: findingsOf(fault).map((one) => sentence(one)).join(' ') });
   } finally {
     if (number === request) loading.value = false;
   }
@@ -55,7 +56,7 @@ function Thumbnail({ scene }: { scene: SceneFacts }) {
       abort.abort();
     };
   }, [scene.links.thumbnail]);
-  if (!scene.valid || failed) return <div class="thumbnail none">{scene.valid ? 'no picture' : 'cannot be read'}</div>;
+  if (!scene.valid || failed) return <div class="thumbnail none">{scene.valid ? t('no image') : t('cannot be read')}</div>;
   return (
     <div class="thumbnail" ref={frame}>
       {picture && <img width={320} height={240} alt="" decoding="async" src={picture} onLoad={(event) => event.currentTarget.classList.add('loaded')} />}
@@ -66,8 +67,9 @@ function Thumbnail({ scene }: { scene: SceneFacts }) {
 function facts(scene: SceneFacts): string[] {
   const { counts } = scene;
   if (!counts) return [];
-  const number = (n: number, one: string): string => `${n.toLocaleString('en')} ${one}${n === 1 ? '' : 's'}`;
-  return [number(counts.models, 'model'), number(counts.triangles, 'triangle')];
+  return [
+    plural(counts.models, '{count} model', '{count} models'), plural(counts.triangles, '{count} triangle', '{count} triangles'),
+  ];
 }
 
 function Card({ scene }: { scene: SceneFacts }) {
@@ -77,11 +79,11 @@ function Card({ scene }: { scene: SceneFacts }) {
       <a href={scenePlace(scene.id)}>
         <div class="frame">
           <Thumbnail scene={scene} />
-          {scene.animated && <span class="badge"><Icon name="play" />animated</span>}
+          {scene.animated && <span class="badge"><Icon name="play" />{t('animated')}</span>}
         </div>
         <div class="words">
           <h2>{scene.title}</h2>
-          <p class="description">{scene.valid ? scene.description : fault ? sentence(fault) : 'This scene cannot be read.'}</p>
+          <p class="description">{scene.valid ? scene.description : fault ? sentence(fault) : t('This scene cannot be read.')}</p>
           {scene.valid && <p class="facts">{facts(scene).map((text) => <span key={text}>{text}</span>)}</p>}
         </div>
       </a>
@@ -92,9 +94,9 @@ function Card({ scene }: { scene: SceneFacts }) {
 export function Gallery() {
   const timer = useRef<ReturnType<typeof setTimeout>>();
   useEffect(() => {
-    document.title = 'Scenes · Farol';
+    document.title = `${t('Scenes')} · Farol`;
     void load(1);
-  }, []);
+  }, [language.value]);
   const shown = listing.value;
   const type = (text: string): void => {
     words.value = text;
@@ -105,17 +107,17 @@ export function Gallery() {
     <main class="gallery" id="main">
       <div class="lead">
         <div>
-          <h1>Scenes</h1>
-          <p>Every pixel is drawn on the server. Open one, or drop your own anywhere on this page.</p>
+          <h1>{t('Scenes')}</h1>
+          <p>{t('Every pixel is drawn on the server. Open one, or drop your own anywhere on this page.')}</p>
         </div>
         <div class="find">
           <label class="search">
             <Icon name="search" />
-            <input type="search" placeholder="Search scenes" aria-label="Search scenes" value={words.value}
+            <input type="search" placeholder={t('Search scenes')} aria-label={t('Search scenes')} value={words.value}
               onInput={(event) => type(event.currentTarget.value)} />
           </label>
-          <button type="button" class="button" onClick={() => pickFiles(false)}><Icon name="upload" />Open files</button>
-          <button type="button" class="button" onClick={() => pickFiles(true)}>Open a folder</button>
+          <button type="button" class="button" onClick={() => pickFiles(false)}><Icon name="upload" />{t('Open files')}</button>
+          <button type="button" class="button" onClick={() => pickFiles(true)}>{t('Open a folder')}</button>
         </div>
       </div>
       {problem.value && <p class="problem" role="alert">{problem.value}</p>}
@@ -126,12 +128,12 @@ export function Gallery() {
       </ul>
       <p class="note" role="status">
         {shown && shown.scenes.length === 0 && (shown.words
-          ? `No scene matches “${shown.words}”.`
-          : 'This server has no scenes. Start it with --scenes FOLDER, or drop one of your own here.')}
+          ? t('No scene matches “{words}”.', { words: shown.words })
+          : t('This server has no scenes. Start it with --scenes FOLDER, or drop one of your own here.'))}
       </p>
       {shown && shown.page < shown.pages && (
         <button type="button" class="button more" disabled={loading.value} onClick={() => void load(shown.page + 1)}>
-          More scenes ({shown.scenes.length} of {shown.total})
+          {t('More scenes ({count} of {total})', { count: shown.scenes.length, total: shown.total })}
         </button>
       )}
     </main>

@@ -8,6 +8,8 @@ export const helpKeys: readonly (readonly [string, string])[] = [
   ['+ −', msg('Zoom; so do the wheel and a pinch')],
   ['R', msg('Back to the scene’s own camera')],
   ['Space', msg('Play or pause')],
+  [', .', msg('A frame back or on')],
+  ['B N', msg('The key before or after: something is where it began')],
   ['M', msg('Walk: arrows turn (up turns down), W A S D move')],
   ['L', msg('Light mode: A and Z raise and lower beta, X and C alpha of the camera’s light; so does one finger')],
   ['O P', msg('Fast or reference quality; again for the scene’s own')],

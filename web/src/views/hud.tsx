@@ -3,6 +3,7 @@ import { signal } from '@preact/signals';
 import type { Latency } from '../frames/timing.ts';
 import type { Viewer } from '../scene/viewer.ts';
 import { recall, remember } from '../storage.ts';
+import { msg, t } from '../words.ts';
 
 // Numbers for those who ask for them: they would cover the picture.
 export const hudShown = signal(recall('hud') === 'on');
@@ -14,7 +15,7 @@ export function showHud(on: boolean): void {
 }
 
 const parts: [keyof Latency, string][] = [
-  ['network', 'network'], ['queue', 'queue'], ['prepare', 'prepare'], ['draw', 'draw'], ['encode', 'encode'], ['page', 'page'],
+  ['network', msg('network')], ['queue', msg('queue')], ['prepare', msg('prepare')], ['draw', msg('draw')], ['encode', msg('encode')], ['page', msg('page')],
 ];
 
 const count = (n: number | undefined): string =>
@@ -30,7 +31,7 @@ export function HudView({ viewer }: { viewer: Viewer }) {
   return (
     <div class="hud" aria-hidden="true">
       <p>
-        <b>{!hud.moving ? 'at rest' : hud.fps > 0 ? `${hud.fps.toFixed(0)} fps` : 'moving'}</b>
+        <b>{!hud.moving ? t('at rest') : hud.fps > 0 ? t('{fps} fps', { fps: hud.fps.toFixed(0) }) : t('moving')}</b>
         <span>{hud.width} × {hud.height}</span><span>{(hud.bytes / 1024).toFixed(0)} kB</span>
       </p>
       <svg class="bar" viewBox="0 0 100 4" preserveAspectRatio="none">
@@ -42,13 +43,13 @@ export function HudView({ viewer }: { viewer: Viewer }) {
       </svg>
       <p class="split">
         <b>{latency.total.toFixed(0)} ms</b>
-        {parts.map(([key, text]) => <span key={key} class={key}>{text} {latency[key].toFixed(latency[key] < 9.95 ? 1 : 0)}</span>)}
+        {parts.map(([key, text]) => <span key={key} class={key}>{t(text)} {latency[key].toFixed(latency[key] < 9.95 ? 1 : 0)}</span>)}
       </p>
-      <p><b>{count(stats.triangles)} triangles</b><span>{count(stats.culled)} culled</span><span>{count(stats.drawCalls)} draws</span></p>
+      <p><b>{t('{n} triangles', { n: count(stats.triangles) })}</b><span>{t('{n} culled', { n: count(stats.culled) })}</span><span>{t('{n} draws', { n: count(stats.drawCalls) })}</span></p>
       {cullingShown.value && (
         <p class="more">
-          <span>{count(stats.instances)} instances drawn of {count((stats.instances ?? 0) + (stats.culled ?? 0))}</span>
-          <span>{count(stats.textures)} textures</span><span>{count(stats.lights)} lights</span>
+          <span>{t('{n} instances drawn of {all}', { n: count(stats.instances), all: count((stats.instances ?? 0) + (stats.culled ?? 0)) })}</span>
+          <span>{t('{n} textures', { n: count(stats.textures) })}</span><span>{t('{n} lights', { n: count(stats.lights) })}</span>
           {Object.entries(stats).filter(([name, value]) => !others.has(name) && typeof value === 'number')
             .map(([name, value]) => <span key={name}>{count(value)} {words(name)}</span>)}
         </p>

@@ -2,6 +2,7 @@
 import { useEffect } from 'preact/hooks';
 import { cameraLightOf } from '../scene/camera_light.ts';
 import type { Viewer } from '../scene/viewer.ts';
+import { t } from '../words.ts';
 
 export function LightNote({ viewer }: { viewer: Viewer }) {
   useEffect(() => {
@@ -10,7 +11,7 @@ export function LightNote({ viewer }: { viewer: Viewer }) {
   const light = cameraLightOf(viewer.text.value ?? '');
   return (
     <p class="light-note" role="status">
-      {light ? `Camera light: alpha ${light.alpha}°, beta ${light.beta}°` : 'No camera light yet: A Z, X C add one'}
+      {light ? t('Camera light: alpha {alpha}°, beta {beta}°', { alpha: light.alpha, beta: light.beta }) : t('No camera light yet: A Z, X C add one')}
     </p>
   );
 }

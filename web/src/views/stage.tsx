@@ -4,9 +4,7 @@ import { listen, type Actions } from '../input.ts';
 import type { Viewer } from '../scene/viewer.ts';
 import { HudView } from './hud.tsx';
 import { lazyView } from './lazy.tsx';
-
-const help =
-  'Drag or arrow keys orbit, right drag or two fingers pan, wheel or plus and minus zoom, W A S D move the focus, R resets, Space plays';
+import { t } from '../words.ts';
 
 const LightNote = lazyView(() => import('./light_note.tsx').then((module) => module.LightNote));
 
@@ -41,10 +39,10 @@ export function Stage({ viewer, actions, preview }: { viewer: Viewer; actions: A
       viewer.canvas = null;
     };
   }, [viewer]);
-  const title = viewer.facts.value?.title || 'Your scene';
+  const title = viewer.facts.value?.title || t('Your scene');
   return (
-    <div class="stage" ref={stage} tabIndex={0} role="application" aria-label={`${title}. ${help}`} aria-busy={viewer.state.value === 'loading'}>
-      <canvas ref={canvas} role="img" aria-label={`Picture of ${title}`} class={viewer.pictured.value ? '' : 'blank'} width={16} height={9} />
+    <div class="stage" ref={stage} tabIndex={0} role="application" aria-label={t('{title}. Drag or arrow keys orbit, right drag or two fingers pan, wheel or plus and minus zoom, W A S D move the focus, R resets, Space plays', { title })} aria-busy={viewer.state.value === 'loading'}>
+      <canvas ref={canvas} role="img" aria-label={t('Image of {title}', { title })} class={viewer.pictured.value ? '' : 'blank'} width={16} height={9} />
       {preview && !viewer.pictured.value && <img class="preview" alt="" src={preview} onError={(event) => event.currentTarget.remove()} />}
       <HudView viewer={viewer} />
       {viewer.lightMode.value && <LightNote viewer={viewer} />}

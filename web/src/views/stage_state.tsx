@@ -26,7 +26,7 @@ const repairOf = (viewer: Viewer) => (finding: Finding): Repair | null => {
   const missing = viewer.missing.value.find((one) => one.finding === finding);
   if (!missing) return null;
   return {
-    label: `Add “${missing.name}”`,
+    label: t('Add “{name}”', { name: missing.name }),
     choose: () => attempt(async () => (await import('../scene/take_files.ts')).chooseFor(viewer, missing)),
     take: (files) => attempt(async () => (await import('../scene/take_files.ts')).addFiles(viewer, files.slice(0, 1), missing)),
   };
@@ -44,7 +44,7 @@ export function FindingsDrawer({ viewer, onPick }: { viewer: Viewer; onPick: (fi
   if (!counts) return null;
   const { errors } = countFindings(findings), open = drawerOpen.value;
   return (
-    <section class={`drawer ${errors > 0 ? 'error' : 'warning'}`} aria-label="Findings of the scene">
+    <section class={`drawer ${errors > 0 ? 'error' : 'warning'}`} aria-label={t('Findings of the scene')}>
       <button type="button" class="drawer-tab" aria-expanded={open} aria-controls="drawer-body" onClick={() => (drawerOpen.value = !open)}>
         <Icon name={errors > 0 ? 'error' : 'warning'} /><span>{counts}</span><Icon name={open ? 'down' : 'up'} />
       </button>
@@ -56,42 +56,42 @@ export function FindingsDrawer({ viewer, onPick }: { viewer: Viewer; onPick: (fi
 /** Speaks of what is wrong, and what can be done about it. */
 export function StageState({ viewer, onPick }: { viewer: Viewer; onPick: (finding: Finding) => void }) {
   const state = viewer.state.value, pictured = viewer.pictured.value, findings = viewer.findings.value;
-  const again = <button type="button" class="button small" onClick={() => viewer.askAgain()}>Try now</button>;
+  const again = <button type="button" class="button small" onClick={() => viewer.askAgain()}>{t('Try now')}</button>;
   if (state === 'failed' && !pictured)
     return (
       <div class="state-card failed" role="alert">
         <Icon name="error" />
-        <h2>This scene cannot be drawn</h2>
+        <h2>{t('This scene cannot be drawn')}</h2>
         <Findings findings={findings.slice(0, 3)} onPick={onPick} />
-        {findings.length > 3 && <p class="note">And {findings.length - 3} more, in the list below.</p>}
+        {findings.length > 3 && <p class="note">{t('And {count} more, in the list below.', { count: findings.length - 3 })}</p>}
       </div>
     );
   if (state === 'failed')
     return (
       <p class="state-note failed" role="status">
-        <Icon name="error" /><span>This cannot be drawn. The image is of the last version that could be.</span>
+        <Icon name="error" /><span>{t('This cannot be drawn. The image is of the last version that could be.')}</span>
       </p>
     );
   if (state === 'offline')
     return (
       <div class={pictured ? 'state-note offline' : 'state-card offline'} role="status">
-        <Icon name="offline" /><span>The server does not answer. It is asked again every few seconds.</span>{again}
+        <Icon name="offline" /><span>{t('The server does not answer. It is asked again every few seconds.')}</span>{again}
       </div>
     );
   if (state === 'gone')
     return (
       <div class="state-note failed" role="alert">
-        <Icon name="lost" /><span>This scene is not on the server any more. The image is the last one that it sent.</span>
-        <a class="button small" href="#/">All scenes</a>
+        <Icon name="lost" /><span>{t('This scene is not on the server any more. The image is the last one that it sent.')}</span>
+        <a class="button small" href="#/">{t('All scenes')}</a>
       </div>
     );
   if (state === 'incomplete')
     return (
       <p class="state-note incomplete" role="status">
-        <Icon name="error" /><span>Incomplete: placeholders stand for what has errors.</span>
+        <Icon name="error" /><span>{t('Incomplete: placeholders stand for what has errors.')}</span>
       </p>
     );
-  if (state === 'loading') return <p class="state-note loading" role="status"><span>Drawing…</span></p>;
+  if (state === 'loading') return <p class="state-note loading" role="status"><span>{t('Drawing…')}</span></p>;
   return null;
 }
 
@@ -102,7 +102,7 @@ export function Notice({ viewer }: { viewer: Viewer }) {
       {viewer.notice.value && (
         <p class="state-note notice">
           <span>{viewer.notice.value}</span>
-          {viewer.edited.value && <button type="button" class="link" onClick={() => viewer.discardEdits()}>Discard the edits</button>}
+          {viewer.edited.value && <button type="button" class="link" onClick={() => viewer.discardEdits()}>{t('Discard the edits')}</button>}
         </p>
       )}
     </div>

@@ -1,6 +1,7 @@
 // Asks for the token that the server wants.
 import { useEffect, useRef } from 'preact/hooks';
 import { question } from '../token.ts';
+import { t } from '../words.ts';
 
 export function TokenDialog() {
   const dialog = useRef<HTMLDialogElement>(null), field = useRef<HTMLInputElement>(null);
@@ -17,16 +18,16 @@ export function TokenDialog() {
         event.preventDefault();
         now.answer(field.current?.value.trim() ?? '');
       }}>
-        <h2 id="token-title">This server wants a token</h2>
+        <h2 id="token-title">{t('This server wants a token')}</h2>
         <p id="token-why">{now.sentence}</p>
         <label class="field">
-          <span>Token</span>
+          <span>{t('Token')}</span>
           <input ref={field} type="password" autocomplete="off" spellcheck={false} aria-describedby="token-why" required />
         </label>
-        <p class="note">It is kept while this tab is open, and sent to this server alone.</p>
+        <p class="note">{t('It is kept while this tab is open, and sent to this server alone.')}</p>
         <div class="buttons">
-          <button type="submit" class="button primary">Go on</button>
-          <button type="button" class="button" onClick={() => now.answer(null)}>Cancel</button>
+          <button type="submit" class="button primary">{t('Go on')}</button>
+          <button type="button" class="button" onClick={() => now.answer(null)}>{t('Cancel')}</button>
         </div>
       </form>
     </dialog>

@@ -1,7 +1,7 @@
 // A scene: its picture, the tools for it, and a panel beside it.
 import { signal } from '@preact/signals';
 import { lazyView } from './lazy.tsx';
-import { useEffect, useMemo } from 'preact/hooks';
+import { useEffect, useMemo, useRef } from 'preact/hooks';
 import { scenePath, type Finding } from '../api.ts';
 import { loadDraft } from '../scene/drafts.ts';
 import { parseView } from '../router.ts';
@@ -17,6 +17,7 @@ import { showHelp } from './sharing.ts';
 import { TimeBar } from './time_bar.tsx';
 import { Toolbar } from './toolbar.tsx';
 import { ViewPanel } from './view_panel.tsx';
+import { language, msg, t } from '../words.ts';
 
 export type PanelName = 'none' | 'view' | 'tree' | 'inspect' | 'files' | 'xml';
 export const panel = signal<PanelName>('none');
@@ -24,7 +25,7 @@ export const panel = signal<PanelName>('none');
 /** Once it was opened the editor stays, with its place and selection. */
 const hadEditor = signal(false);
 
-const tabs: [PanelName, string][] = [['view', 'View'], ['tree', 'Tree'], ['inspect', 'Inspect'], ['files', 'Files'], ['xml', 'XML']];
+const tabs: [PanelName, string][] = [['view', msg('View')], ['tree', msg('Tree')], ['inspect', msg('Inspect')], ['files', msg('Files')], ['xml', 'XML']];
 
 export function openPanel(name: PanelName): void {
   panel.value = name;
@@ -50,12 +51,12 @@ function Panel({ viewer }: { viewer: Viewer }) {
     document.getElementById(`tab-${next[0]}`)?.focus();
   };
   return (
-    <aside class={`panel of-${panel.value}`} aria-label="Settings and source" hidden={panel.value === 'none'}>
-      <div class="tabs" role="tablist" aria-label="Panel" onKeyDown={keys}>
+    <aside class={`panel of-${panel.value}`} aria-label={t('Settings and source')} hidden={panel.value === 'none'}>
+      <div class="tabs" role="tablist" aria-label={t('Panel')} onKeyDown={keys}>
         {tabs.map(([name, text]) => (
           <button key={name} type="button" role="tab" id={`tab-${name}`} aria-controls={`panel-${name}`}
             aria-selected={panel.value === name} tabIndex={panel.value === name ? 0 : -1} onClick={() => openPanel(name)}>
-            {text}{name === 'files' && viewer.missing.value.length > 0 && <span class="count" title="missing">{viewer.missing.value.length}</span>}
+            {t(text)}{name === 'files' && viewer.missing.value.length > 0 && <span class="count" title={t('missing')}>{viewer.missing.value.length}</span>}
           </button>
         ))}
       </div>
@@ -115,10 +116,16 @@ export function ViewerPage({ id, view }: { id: string | null; view: URLSearchPar
       if (own && local.peek() === own) local.value = null;
     };
   }, [viewer]);
+  const spoken = useRef(language.value);
+  useEffect(() => {
+    if (language.value === spoken.current) return;
+    spoken.current = language.value;
+    viewer.languageChanged().catch((fault: unknown) => viewer.report(fault));
+  }, [language.value]);
   // The thumbnail is of the scene as it is stored, by its own camera.
   const preview = useMemo(() => (id !== null && view.toString() === '' && loadDraft(id) === null ? `${scenePath(id)}/thumbnail` : ''), [viewer]);
   const facts = viewer.facts.value;
-  const title = facts?.title || (id ?? own?.name ?? 'Your scene');
+  const title = facts?.title || (id ?? own?.name ?? t('Your scene'));
   useEffect(() => {
     document.title = `${title} · Farol`;
   }, [title]);

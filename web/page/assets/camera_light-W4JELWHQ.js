@@ -1,1 +1,0 @@
-import{a,b,c}from"./chunk-ZYUDIMTD.js";import"./chunk-ZVWRHBI2.js";import"./chunk-MQQECXQ2.js";import"./chunk-AGTO63LT.js";import"./chunk-PMRFXTL7.js";import"./chunk-X6RJ2OPA.js";import"./chunk-L6JX62ME.js";import"./chunk-EMJR3EDO.js";export{a as cameraLightOf,b as turnCameraLight,c as turnLight};

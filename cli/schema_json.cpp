@@ -4,7 +4,9 @@
 #include "core/text.h"
 #include "generator/registry.h"
 #include "grade/formats/formats.h"
+#include "grade/rubric/metrics.h"
 #include "grade/rubric/rubric.h"
+#include "grade/rubric/severity.h"
 #include "image/format.h"
 #include "render/options.h"
 #include "scene/read/tables.h"
@@ -160,6 +162,25 @@ Json toJson(const grade::Format& format) {
     return out;
 }
 
+Json toJson(const grade::MetricSpec& metric) {
+    Json out{{"name", metric.name}, {"summary", metric.summary}, {"weight", number(metric.weight)}};
+    if (const grade::ImageMetric* image = metric.image()) {
+        out["pictures"] = metric.appliesToPictures();
+        out["tolerance"] = number(image->tolerance);
+        out["limit"] = number(image->limit);
+    } else {
+        out["perFinding"] = number(metric.causes()->perFinding);
+    }
+    return out;
+}
+
+Json toJson(const grade::Kind& kind) {
+    return {{"code", kind.code},
+            {"criterion", grade::kTopicWords[kind.topic]},
+            {"least", number(kind.least)},
+            {"most", number(kind.most)}};
+}
+
 template <typename Rows>
 Json listOf(const Rows& rows) {
     Json list = Json::array();
@@ -170,11 +191,16 @@ Json listOf(const Rows& rows) {
 }  // namespace
 
 Json tablesAsJson() {
-    return {
-        {"elements", listOf(scene::elementSpecs())},   {"shapes", listOf(generator::shapes())},
-        {"formats", listOf(image::kFormats)},          {"options", listOf(render::optionSpecs())},
-        {"settings", listOf(server::settings())},      {"gradeFormats", listOf(grade::formats())},
-        {"rubric", Json::parse(grade::rubricSchema())}};
+    return {{"elements", listOf(scene::elementSpecs())},
+            {"shapes", listOf(generator::shapes())},
+            {"formats", listOf(image::kFormats)},
+            {"options", listOf(render::optionSpecs())},
+            {"settings", listOf(server::settings())},
+            {"gradeFormats", listOf(grade::formats())},
+            {"gradeMeasures", listOf(grade::metrics())},
+            {"gradeKinds", listOf(grade::kinds())},
+            {"rubric", Json::parse(grade::rubricSchema())},
+            {"defaultRubric", Json::parse(grade::writeRubric(grade::defaultRubric()))}};
 }
 
 }  // namespace farol::cli

@@ -21,6 +21,15 @@ const documents = {
   },
 };
 
+/** Files of the report of `farol grade` as texts, for reports that the page writes. */
+const reportFiles = {
+  name: 'report files',
+  setup({ onResolve, onLoad }) {
+    onResolve({ filter: /^report:/ }, ({ path }) => ({ path: join(here, '../grade/report', path.slice('report:'.length)), namespace: 'report' }));
+    onLoad({ filter: /./, namespace: 'report' }, ({ path }) => ({ contents: readFileSync(path, 'utf8'), loader: 'text' }));
+  },
+};
+
 function write(path, bytes) {
   mkdirSync(dirname(join(out, path)), { recursive: true });
   writeFileSync(join(out, path), bytes);
@@ -32,7 +41,7 @@ const { outputFiles, metafile } = await build({
   absWorkingDir: here, outdir: out, entryNames: 'assets/[name]-[hash]', chunkNames: 'assets/[name]-[hash]',
   assetNames: 'assets/[name]-[hash]', bundle: true, splitting: true, format: 'esm', target: 'es2021', charset: 'utf8', minify: true,
   jsx: 'automatic', jsxImportSource: 'preact', metafile: true, write: false, logLevel: 'warning', legalComments: 'none',
-  plugins: [documents], nodePaths: [join(packages, 'node_modules')],
+  plugins: [documents, reportFiles], nodePaths: [join(packages, 'node_modules')],
 });
 for (const file of outputFiles) write(file.path.slice(join(out, '/').length), file.contents);
 

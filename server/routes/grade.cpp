@@ -54,32 +54,54 @@ worker::GradeTask::Request readJob(std::vector<Part> parts) {
     return job;
 }
 
+constexpr std::int64_t kWithReference = 2;  // the value of pictures
+
+/// The scene that is meant, where an archive holds those of several tasks.
+void readTask(const Parameters& wanted, grade::Wanted& submission) {
+    submission.task = wanted.ownValue("task");
+    const std::string others = wanted.ownValue("others");
+    for (const std::string_view other : split(others, ","))
+        submission.others.emplace_back(trimmed(other));
+}
+
+/// Adds images to the views as data: URLs, in their order, one for each name.
+void addPictures(nlohmann::json& views, const std::vector<std::string>& pictures,
+                 std::initializer_list<const char*> names) {
+    std::size_t at = 0;
+    for (nlohmann::json& view : views)
+        for (const char* name : names) {
+            if (at >= pictures.size()) return;
+            const std::string& bytes = pictures[at++];
+            if (!bytes.empty()) view[name] = "data:image/jpeg;base64," + base64(bytes);
+        }
+}
+
 }  // namespace
 
 http::Response postGrade(Context& context, const Call& call) {
-    const Parameters wanted =
-        readParameters(call.request.query, {false, false, {"pictures", "missing"}, {}});
-    const bool pictures = wholeNumber("pictures", wanted.ownValue("pictures", "1"), 0, 1) == 1;
+    const Parameters wanted = readParameters(
+        call.request.query, {false, false, {"pictures", "missing", "task", "others"}, {}});
+    const std::int64_t pictures =
+        wholeNumber("pictures", wanted.ownValue("pictures", "1"), 0, kWithReference);
     render::PictureOptions options;
     render::applyOption(options, "missing", wanted.ownValue("missing", "placeholder"));
     worker::GradeTask::Request job =
         readJob(readParts(call.request, call.body, context.options.maxBodyBytes));
     job.submission.job.options.missing = options.missing;
     job.language = languageOf(call.request);
+    readTask(wanted, job.submission.wanted);
     const auto done = context.backend.run<worker::GradeTask>(job);
     nlohmann::json body = parseJson(done.result.json, grade::kGradeJson);
     // For comparing a class; the client has the document.
     body.erase("traits");
     body.erase("document");
-    if (pictures && body.contains("views")) {
+    if (pictures > 0 && body.contains("views")) {
         // Two pictures a view, in its order: the submission and the difference.
-        std::size_t at = 0;
-        for (nlohmann::json& view : body["views"]) {
-            for (const char* name : {"picture", "heat"}) {
-                if (at >= done.result.pictures.size()) break;
-                const std::string& bytes = done.result.pictures[at++];
-                if (!bytes.empty()) view[name] = "data:image/jpeg;base64," + base64(bytes);
-            }
+        addPictures(body["views"], done.result.pictures, {"picture", "heat"});
+        if (pictures == kWithReference && !job.reference.isNone()) {
+            const auto expected =
+                context.backend.run<worker::ReferenceTask>({job.reference, job.rubric});
+            addPictures(body["views"], expected.result.pictures, {"expected"});
         }
     }
     return freshJson(body, job.language);

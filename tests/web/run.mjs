@@ -60,13 +60,20 @@ if (kind === 'bundle') {
       onLoad({ filter: /./, namespace: 'document' }, ({ path }) => ({ contents: readFileSync(join(root, paths[path]), 'utf8'), loader: 'text' }));
     },
   };
+  const reportFiles = {
+    name: 'report files',
+    setup({ onResolve, onLoad }) {
+      onResolve({ filter: /^report:/ }, ({ path }) => ({ path: join(root, 'grade/report', path.slice('report:'.length)), namespace: 'report' }));
+      onLoad({ filter: /./, namespace: 'report' }, ({ path }) => ({ contents: readFileSync(path, 'utf8'), loader: 'text' }));
+    },
+  };
   const out = join(packages, `unit-${process.version}`);  // one for each Node.js under test
   rmSync(out, { recursive: true, force: true });
   mkdirSync(out, { recursive: true });
   const sources = readdirSync(join(here, 'unit')).filter((name) => name.endsWith('.test.ts'));
   await require('esbuild').build({
     entryPoints: sources.map((name) => join(here, 'unit', name)), bundle: true, format: 'esm', platform: 'node', outdir: out,
-    outExtension: { '.js': '.mjs' }, plugins: [documents], nodePaths: [join(packages, 'node_modules')], logLevel: 'warning',
+    outExtension: { '.js': '.mjs' }, plugins: [documents, reportFiles], nodePaths: [join(packages, 'node_modules')], logLevel: 'warning',
   });
   run(sources.map((name) => join(out, name.replace(/\.ts$/, '.mjs'))));
 } else if (kind === 'e2e') {

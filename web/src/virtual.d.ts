@@ -8,21 +8,8 @@ declare module 'document:schema' {
   export default text;
 }
 declare module '*.css';
-// The view of grades that the report of `farol grade` is made of, too.
-declare module '*/grade/report/view.js' {
-  interface Graded {
-    id: string;
-    name: string;
-    identifier: string;
-    points: number;
-    most: number;
-    passed: boolean;
-    state?: string;
-    tasks: ({ grade: object; references: () => string[]; pictures: () => string[] } | { failure: { code: string; message: string } })[];
-  }
-  interface GradesView {
-    show(all: readonly Graded[]): void;
-    choose(index: number, focus?: boolean): void;
-  }
-  function gradesView(places: { head: HTMLElement; body: HTMLElement; keys: EventTarget; chosen?: (one: Graded) => void }): GradesView;
+// Files of grade/report as texts (web/build.mjs).
+declare module 'report:*' {
+  const text: string;
+  export default text;
 }

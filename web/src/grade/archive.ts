@@ -1,0 +1,166 @@
+// Archives that are read where they lie: a zip's directory first, its members as they are needed.
+const signature = { local: 0x04034b50, entry: 0x02014b50, end: 0x06054b50 };
+const endBytes = 22, entryBytes = 46, localBytes = 30;
+const maxDirectoryBytes = 64 * 1024 * 1024;
+const method = { stored: 0, deflated: 8 };
+export const isArchiveName = (path: string): boolean => /\.(zip|tar|tgz|gz|7z|rar)$/i.test(path);
+
+/** A file of a zip, as its directory has it. */
+export interface ZipEntry {
+  path: string;
+  bytes: number;
+  packed: number;
+  offset: number;
+  method: number;
+  record: Uint8Array; // 46 bytes of the directory
+}
+
+const view = async (blob: Blob): Promise<DataView> => new DataView(await blob.arrayBuffer());
+
+/** The files of a zip; null: it is none that can be read here. */
+export async function zipEntries(zip: Blob): Promise<ZipEntry[] | null> {
+  const tail = await view(zip.slice(Math.max(0, zip.size - endBytes - 65535)));
+  let end = tail.byteLength - endBytes;
+  while (end >= 0 && tail.getUint32(end, true) !== signature.end) --end;
+  if (end < 0) return null;
+  const count = tail.getUint16(end + 10, true), size = tail.getUint32(end + 12, true), begin = tail.getUint32(end + 16, true);
+  if (size > maxDirectoryBytes || begin + size > zip.size) return null;
+  const directory = await view(zip.slice(begin, begin + size));
+  const entries: ZipEntry[] = [];
+  for (let at = 0; entries.length < count;) {
+    if (at + entryBytes > size || directory.getUint32(at, true) !== signature.entry) return null;
+    const nameBytes = directory.getUint16(at + 28, true);
+    const whole = entryBytes + nameBytes + directory.getUint16(at + 30, true) + directory.getUint16(at + 32, true);
+    if (at + whole > size) return null;
+    entries.push({
+      path: new TextDecoder().decode(new Uint8Array(directory.buffer, at + entryBytes, nameBytes)).replaceAll('\\', '/'),
+      bytes: directory.getUint32(at + 24, true), packed: directory.getUint32(at + 20, true),
+      offset: directory.getUint32(at + 42, true), method: directory.getUint16(at + 10, true),
+      record: new Uint8Array(directory.buffer, at, entryBytes).slice(),
+    });
+    at += whole;
+  }
+  return entries;
+}
+
+/** The bytes of an entry as they are packed. */
+async function packedBytes(zip: Blob, { offset, packed }: ZipEntry): Promise<Blob> {
+  const local = await view(zip.slice(offset, offset + localBytes));
+  if (local.byteLength < localBytes || local.getUint32(0, true) !== signature.local) throw new Error('The archive is damaged');
+  const data = offset + localBytes + local.getUint16(26, true) + local.getUint16(28, true);
+  return zip.slice(data, data + packed);
+}
+
+/** A zip of these entries under other names, of the bytes as they are packed. */
+export async function repacked(zip: Blob, entries: readonly (ZipEntry & { name: string })[]): Promise<Blob> {
+  const parts: BlobPart[] = [], directory: BlobPart[] = [];
+  let size = 0, directorySize = 0;
+  for (const one of entries) {
+    const name = new TextEncoder().encode(one.name), entry = new DataView(one.record.slice().buffer);
+    entry.setUint16(8, (entry.getUint16(8, true) & ~8) | 0x800, true); // sizes in the header, a name in UTF-8
+    entry.setUint16(28, name.length, true);
+    entry.setUint16(30, 0, true); // no extra field, no comment
+    entry.setUint16(32, 0, true);
+    entry.setUint32(42, size, true);
+    const record = new Uint8Array(entry.buffer), head = new Uint8Array(localBytes);
+    head.set(record.subarray(6, 30), 4);
+    new DataView(head.buffer).setUint32(0, signature.local, true);
+    new DataView(head.buffer).setUint16(28, 0, true);
+    parts.push(head as BlobPart, name as BlobPart, await packedBytes(zip, one));
+    directory.push(record as BlobPart, name as BlobPart);
+    size += localBytes + name.length + one.packed;
+    directorySize += entryBytes + name.length;
+  }
+  const end = new DataView(new ArrayBuffer(endBytes));
+  end.setUint32(0, signature.end, true);
+  end.setUint16(8, entries.length, true);
+  end.setUint16(10, entries.length, true);
+  end.setUint32(12, directorySize, true);
+  end.setUint32(16, size, true);
+  return new Blob([...parts, ...directory, end.buffer], { type: 'application/zip' });
+}
+
+/** Unpacks a stream; throws Error where more than `max` bytes come out, before they are kept. */
+async function unpacked(packed: Blob, format: CompressionFormat, max: number): Promise<Uint8Array> {
+  const reader = packed.stream().pipeThrough(new DecompressionStream(format) as ReadableWritablePair<Uint8Array, Uint8Array>).getReader();
+  const chunks: Uint8Array[] = [];
+  let size = 0;
+  for (;;) {
+    const { done, value } = await reader.read();
+    if (done) break;
+    size += value.length;
+    if (size > max) {
+      await reader.cancel();
+      throw new Error(`A file is larger than ${Math.round(max / 1048576)} MiB`);
+    }
+    chunks.push(value);
+  }
+  return new Uint8Array(await new Blob(chunks as BlobPart[]).arrayBuffer());
+}
+
+const maxNestedBytes = 64 * 1024 * 1024;
+
+/** A file in an archive; its bytes are unpacked when they are asked for. */
+export interface Member {
+  path: string;
+  bytes: number;
+  read(max: number): Promise<Uint8Array>;
+}
+
+async function readSlice(blob: Blob, max: number): Promise<Uint8Array> {
+  if (blob.size > max) throw new Error(`A file is larger than ${Math.round(max / 1048576)} MiB`);
+  return new Uint8Array(await blob.arrayBuffer());
+}
+
+async function readEntry(zip: Blob, entry: ZipEntry, max: number): Promise<Uint8Array> {
+  const packed = await packedBytes(zip, entry);
+  if (entry.method === method.stored) return readSlice(packed, max);
+  if (entry.method !== method.deflated) throw new Error('A file is packed by a method that is not read here');
+  return unpacked(packed, 'deflate-raw', max);
+}
+
+const tarBlock = 512, maxTarFiles = 50_000;
+
+/** The regular files of a tar: 512 bytes of header each. */
+async function tarMembers(tar: Blob): Promise<Member[] | null> {
+  const members: Member[] = [];
+  for (let at = 0; at + tarBlock <= tar.size && members.length < maxTarFiles;) {
+    const header = new Uint8Array(await tar.slice(at, at + tarBlock).arrayBuffer());
+    if (header.every((byte) => byte === 0)) break;
+    const text = (from: number, length: number): string =>
+      (new TextDecoder().decode(header.subarray(from, from + length)).split('\0')[0] ?? '').trim();
+    const bytes = Number.parseInt(text(124, 12), 8);
+    if (text(257, 5) !== 'ustar' || !(bytes >= 0)) return null;
+    const prefix = text(345, 155), path = prefix ? `${prefix}/${text(0, 100)}` : text(0, 100);
+    const blob = tar.slice(at + tarBlock, at + tarBlock + bytes);
+    if (/^0?$/.test(text(156, 1))) members.push({ path, bytes, read: (max) => readSlice(blob, max) });
+    at += tarBlock + Math.ceil(bytes / tarBlock) * tarBlock;
+  }
+  return members.length > 0 ? members : null;
+}
+
+async function membersHere(archive: Blob): Promise<Member[] | null> {
+  const [a, b] = new Uint8Array(await archive.slice(0, 2).arrayBuffer());
+  if (a === 0x1f && b === 0x8b) return tarMembers(new Blob([(await unpacked(archive, 'gzip', maxNestedBytes)) as BlobPart]));
+  if (a !== 0x50 || b !== 0x4b) return tarMembers(archive);
+  const entries = await zipEntries(archive);
+  return entries && entries.filter(({ path }) => !path.endsWith('/'))
+    .map((entry) => ({ path: entry.path, bytes: entry.bytes, read: (max: number) => readEntry(archive, entry, max) }));
+}
+
+/**
+ * The files of a zip, tar or tar.gz, and of archives in it, two deep, below a folder of their name. Null: it is none
+ * that a browser can read (7z, rar).
+ */
+export async function membersOf(archive: Blob, depth = 2): Promise<Member[] | null> {
+  const members = await membersHere(archive);
+  if (!members || depth === 0) return members;
+  const all: Member[] = [];
+  for (const member of members) {
+    all.push(member);
+    if (!isArchiveName(member.path) || member.bytes > maxNestedBytes) continue;
+    const inner = await membersOf(new Blob([(await member.read(maxNestedBytes)) as BlobPart]), depth - 1).catch(() => null);
+    for (const one of inner ?? []) all.push({ ...one, path: `${member.path}/${one.path}` });
+  }
+  return all;
+}

@@ -1,4 +1,7 @@
+#include "worker/tasks/grade.h"
+
 #include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
 
 #include "fixture.h"
 #include "server/routes/subject.h"
@@ -36,9 +39,47 @@ TEST_CASE("a grade takes a submission and a reference, and nothing else") {
         CHECK(answer.code() == one.code);
     }
     CHECK(post(server.port(), "/v1/grade", "<world/>").status == 415);
-    CHECK(post(server.port(), "/v1/grade?pictures=2", multipart({submission, reference}),
+    CHECK(post(server.port(), "/v1/grade?pictures=3", multipart({submission, reference}),
                kMultipartType)
               .status == 400);
+}
+
+TEST_CASE("a grade knows its task among others, and adds the reference's images where asked") {
+    FakeServer server;
+    grade::Wanted wanted;
+    server.backend.on<worker::GradeTask>([&](const worker::GradeTask::Request& request) {
+        wanted = request.submission.wanted;
+        worker::GradeTask::Reply reply;
+        reply.json = R"({"points":50,"views":[{"name":"a"},{"name":"b"}]})";
+        reply.pictures = {"one", "two", "", "three"};
+        return reply;
+    });
+    server.backend.on<worker::ReferenceTask>([](const worker::ReferenceTask::Request&) {
+        return worker::ReferenceTask::Reply{{"four", "five"}};
+    });
+    const std::vector<FilePart> parts{{"submission", "s.zip", "PK\3\4...", ""},
+                                      {"reference", "r.xml", "<world/>", ""}};
+    const auto viewsOf = [&](const std::string& query) {
+        const Answer answer =
+            post(server.port(), "/v1/grade" + query, multipart(parts), kMultipartType);
+        REQUIRE(answer.status == 200);
+        return nlohmann::json::parse(answer.body).at("views");
+    };
+    const auto url = [](const char* base64) {
+        return std::string("data:image/jpeg;base64,") + base64;
+    };
+    nlohmann::json views = viewsOf("?pictures=2&task=test%204&others=test%205,%20house,");
+    CHECK(wanted.task == "test 4");
+    CHECK(wanted.others == std::vector<std::string>{"test 5", "house"});
+    CHECK(views[0] == nlohmann::json{{"name", "a"},
+                                     {"picture", url("b25l")},
+                                     {"heat", url("dHdv")},
+                                     {"expected", url("Zm91cg==")}});
+    CHECK(views[1] ==
+          nlohmann::json{{"name", "b"}, {"heat", url("dGhyZWU=")}, {"expected", url("Zml2ZQ==")}});
+    CHECK_FALSE(viewsOf("")[0].contains("expected"));
+    CHECK(wanted.task.empty());
+    CHECK_FALSE(viewsOf("?pictures=0")[0].contains("picture"));
 }
 
 TEST_CASE("the content says whether an archive, an image or a scene was handed in") {

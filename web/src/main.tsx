@@ -6,7 +6,6 @@ import './style/gallery.css';
 import './style/viewer.css';
 import './style/panel.css';
 import './style/tree.css';
-import '../../grade/report/view.css';
 import './style/grade.css';
 import './style/assignment.css';
 import './style/touch.css';

@@ -1,8 +1,8 @@
-// The grade page, and the token that a server may want.
+// The grade page: a class, its table, a submission's details, what a reload keeps; and the token that a server may want.
 import assert from 'node:assert/strict';
-import { readFileSync } from 'node:fs';
 import { after, before, test } from 'node:test';
 import { launch, openPage, settled, startServer } from './fixture.mjs';
+import { cellsOf, choose, file, gradeClass, notAScene, references, rowOf, scene } from './grade_class.mjs';
 
 let server, guarded, browser;
 before(async () => {
@@ -14,69 +14,296 @@ after(async () => {
   await guarded?.stop();
 });
 
-const scene = (angle) => `<world><window width="160" height="120"/>
-<camera><position x="4" y="3" z="5"/><lookAt x="0" y="0" z="0"/><projection fov="50" near="1" far="50"/></camera>
-<lights><light type="directional" dirx="1" diry="2" dirz="1"/></lights>
-<group>
- <transform><translate x="1" y="0" z="0"/>
-  <rotate angle="${angle}" x="0" y="0" z="1"/></transform>
- <models><model file="box_1_2.3d"/></models>
-</group></world>`;
-const file = (name, text) => ({ name, mimeType: name.endsWith('.json') ? 'application/json' : 'text/xml', buffer: Buffer.from(text) });
-const choose = async (view, button, files) => {
-  const [chooser] = await Promise.all([view.page.waitForEvent('filechooser'), view.page.getByRole('button', { name: button }).click()]);
-  await chooser.setFiles(files);
-};
+const openGrade = (options = {}) => openPage(browser, `${server.url}/#/grade`, { viewport: { width: 1280, height: 900 }, ...options });
+const names = (view) => view.page.locator('#list tbody tr td:first-child button').allInnerTexts();
 
-test('the grade page sends each submission, and shows points, findings and pictures', async () => {
-  const view = await openPage(browser, `${server.url}/#/grade`, { acceptDownloads: true });
-  const sent = [];
-  view.page.on('response', (response) => {
-    if (new URL(response.url()).pathname === '/v1/grade') sent.push(response.status());
+test("Moodle's zip of a class and a folder of references: a row a student, a column a task", async () => {
+  const view = await openGrade(), sent = [];
+  view.page.on('request', (request) => {
+    if (new URL(request.url()).pathname === '/v1/grade') sent.push(new URL(request.url()).searchParams);
   });
-  const go = view.page.getByRole('button', { name: 'Grade', exact: true });
-  assert.ok(await go.isDisabled());
-  await choose(view, 'Reference: choose files', [file('reference.xml', scene(40))]);
-  await choose(view, 'Submissions: choose files', [file('Ana Sá_7_assignsubmission_file_a.xml', scene(40)), file('bento.xml', scene(-40)), file('carla.xml', 'sphere { <0, 0, 0>, 1 }')]);
-  await choose(view, 'Submissions: choose files', [file('rubric.json', '{"title": "Of twenty", "points": 20}')]);
-  await view.page.getByText('3 submissions').waitFor();
-  await go.click();
-  await view.page.getByText('3 graded.').waitFor({ timeout: 60000 });
-  assert.deepEqual(sent, [200, 200, 200]);
-  const row = (name) => view.page.locator('#list tbody tr', { hasText: name }), detail = view.page.locator('#detail');
-  const cell = (name, number) => row(name).locator('td').nth(number).innerText();
-  assert.match(await row('Ana Sá').locator('td').first().innerText(), /^Ana Sá\s+Participant 7$/);
-  assert.equal(await cell('Ana Sá', 1), '20 / 20');
-  assert.equal(await cell('carla', 2), 'not graded');
-  assert.equal(await cell('carla', 1), '–');
-  assert.match(await cell('carla', 3), /the document has no element/);
-  const lost = Number.parseFloat(await cell('bento', 1));
-  assert.ok(lost > 0 && lost < 20, `${lost} points`);
-  assert.match(await view.page.locator('#summary').innerText(), /^3 submissions, \d passed, 1 could not be graded, median [\d.]+ of 20 points$/);
+  await gradeClass(view);
+  assert.deepEqual(await names(view), ['Ana Sá', 'Bento Dias', 'Carla Lopes', 'Duarte Melo', 'Eva Pinto']);
+  assert.deepEqual(await view.page.locator('#list thead th').allInnerTexts(), ['Submission ▲', 'Mark of 100', 'ball', 'box', 'Result', 'First cause'].map((text) => text.replace(' ▲', '')));
+  const ana = await cellsOf(view, 'Ana Sá'), bento = await cellsOf(view, 'Bento Dias'), duarte = await cellsOf(view, 'Duarte Melo'), eva = await cellsOf(view, 'Eva Pinto');
+  assert.match(ana[0], /^Ana Sá\s+Participant 7$/);
+  assert.deepEqual(ana.slice(1, 5).map((text) => text.trim()), ['100', '100', '100', 'passed']);
+  // An archive in the archive; its names mean the tasks.
+  assert.ok(Number(bento[3]) > 50 && Number(bento[3]) < 100 && Number(bento[2]) < 100, bento.join());
+  assert.equal(duarte[3], '–');
+  assert.ok(Number(duarte[2]) > 50);
+  assert.deepEqual([eva[1].trim(), eva[4]], ['–', 'not graded']);
+  assert.match(eva[5], /it holds nothing that has the name of "box"/);
+  assert.match(await view.page.locator('#summary').innerText(), /^5 submissions, \d passed, 1 not graded, median [\d.]+ of 100 points$/);
+  assert.equal(sent.length, 10);
+  assert.ok(sent.every((query) => [query.get('task'), query.get('others')].sort().join() === 'ball,box'));
+  // The reference's images are asked for until they are here.
+  assert.ok(sent.filter((query) => query.get('pictures') === '2').length < 6);
+  await view.close();
+});
+
+test('the table is sorted and filtered, and survives a reload', async () => {
+  const view = await openGrade();
+  await gradeClass(view);
+  await view.page.getByRole('button', { name: 'Mark of 100' }).click();
+  assert.equal((await names(view))[0], 'Ana Sá');
+  assert.equal(await view.page.locator('#list th').nth(1).getAttribute('aria-sort'), 'descending');
+  await view.page.getByRole('button', { name: 'Mark of 100' }).click();
+  assert.equal((await names(view)).at(-1), 'Ana Sá');
+  await view.page.getByRole('combobox', { name: 'State' }).selectOption('not graded');
+  assert.deepEqual(await names(view), ['Eva Pinto']);
+  await view.page.getByRole('button', { name: 'Show all' }).click();
+  await view.page.getByRole('combobox', { name: 'Cause' }).selectOption('transform.angle-sign');
+  assert.deepEqual(await names(view), ['Bento Dias']);
+  await view.page.getByRole('button', { name: 'Show all' }).click();
+  await view.page.getByLabel('From %').fill('99');
+  assert.deepEqual(await names(view), ['Ana Sá']);
+  await view.page.getByRole('button', { name: 'Show all' }).click();
   await view.page.getByRole('searchbox', { name: 'Filter' }).fill('wrong sign');
-  assert.equal(await view.page.locator('#list tbody tr').count(), 1);
-  await row('bento').click();
-  assert.match(await detail.locator('.findings').first().innerText(), /line 6[\s\S]*6 >\s*<rotate angle="-40"/);
-  // Both pictures were drawn: they have sizes of their own.
-  await view.page.waitForFunction(() => {
-    const pictures = [...document.querySelectorAll('#detail img')];
-    return pictures.length >= 2 && pictures.every((one) => one.complete && one.naturalWidth === 160);
+  assert.deepEqual(await names(view), ['Bento Dias']);
+  await rowOf(view, 'Bento').click();
+  await view.page.getByRole('spinbutton', { name: 'Mark for the submission' }).fill('61.5');
+  await view.page.getByRole('textbox', { name: 'Comment on the submission' }).fill('late');
+  await view.page.keyboard.press('Tab');
+  await view.page.waitForTimeout(300); // until the browser has it
+  const asked = [];
+  view.page.on('request', (request) => {
+    if (request.url().includes('/v1/grade')) asked.push(request.url());
   });
-  // What is chosen stays in sight while more is added.
-  await view.page.getByRole('searchbox', { name: 'Filter' }).fill('');
-  await choose(view, 'Submissions: choose files', [file('duarte.xml', scene(41))]);
-  assert.equal(await cell('duarte', 2), 'waiting');
-  assert.equal(await detail.locator('h2').innerText(), 'bento.xml');
-  const [download] = await Promise.all([view.page.waitForEvent('download'), view.page.getByRole('button', { name: 'CSV' }).click()]);
-  const table = readFileSync(await download.path(), 'utf8').trim().split('\r\n');
-  assert.equal(table.length, 5);
-  assert.equal(table[0], 'Identifier,Full name,Grade,Maximum Grade,Last modified (grade),Passed,Submission,Feedback comments');
-  assert.equal(table.find((line) => line.includes('Ana')), 'Participant 7,Ana Sá,20.00,20.00,,yes,Ana Sá_7_assignsubmission_file_a.xml,');
-  assert.match(table.find((line) => line.includes('bento')), /sign/);
-  // On a phone nothing of the details is cut off.
-  await view.page.setViewportSize({ width: 360, height: 740 });
-  assert.deepEqual(await view.page.locator('#list, #detail, #detail .points, #detail .side').evaluateAll((all) =>
-    all.filter((one) => one.scrollWidth > one.clientWidth || one.getBoundingClientRect().right > 360).map((one) => one.id || one.className)), []);
+  await view.page.reload();
+  await rowOf(view, 'Bento').waitFor();
+  assert.deepEqual(await names(view), ['Bento Dias']);
+  assert.match((await cellsOf(view, 'Bento'))[1], /^61\.5/);
+  assert.match(await view.page.locator('#detail h2').innerText(), /Bento Dias/);
+  assert.equal(await view.page.getByRole('textbox', { name: 'Comment on the submission' }).inputValue(), 'late');
+  await view.page.waitForFunction(() => document.querySelector('#detail .images img')?.naturalWidth === 160);
+  assert.deepEqual(asked, []);
+  // All is forgotten where it is asked for.
+  view.page.once('dialog', (question) => void question.accept());
+  await view.page.getByRole('button', { name: 'Forget this class' }).click();
+  await view.page.getByRole('button', { name: 'Try an example class' }).waitFor();
+  await view.page.reload();
+  await view.page.getByRole('button', { name: 'Try an example class' }).waitFor();
+  assert.equal(await view.page.evaluate(() => new Promise((done) => {
+    const opening = indexedDB.open('farol');
+    opening.onsuccess = () => {
+      const all = opening.result.transaction('kept').objectStore('kept').getAllKeys(IDBKeyRange.bound('grade/file', 'grade/z'));
+      all.onsuccess = () => done(all.result.length);
+    };
+  })), 0);
+  await view.close();
+});
+
+/** The colour in the middle of an image on the page. */
+const pixels = (locator) => locator.evaluate((image) => {
+  const canvas = document.createElement('canvas');
+  [canvas.width, canvas.height] = [image.naturalWidth, image.naturalHeight];
+  const context = canvas.getContext('2d');
+  context.drawImage(image, 0, 0);
+  return [...context.getImageData(0, 0, canvas.width, canvas.height).data];
+});
+const differing = (a, b) => a.filter((value, i) => Math.abs(value - b[i]) > 24).length;
+
+test('details: both images and their difference, causes with lines, and the document there', async () => {
+  const view = await openGrade();
+  await gradeClass(view);
+  await rowOf(view, 'Bento').click();
+  const detail = view.page.locator('#detail'), image = (name) => detail.locator('figure', { hasText: name }).locator('img');
+  await image('Reference').waitFor();
+  await view.page.waitForFunction(() => [...document.querySelectorAll('#detail .images img')].every((one) => one.complete && one.naturalWidth === 160));
+  await detail.getByRole('button', { name: /^own camera/ }).click();
+  await view.page.waitForFunction(() => [...document.querySelectorAll('#detail .images img')].every((one) => one.complete && one.naturalWidth === 160));
+  // The reference is what the service draws of it; the submission differs where the difference is bright.
+  const drawn = await view.page.evaluate(async (xml) => {
+    const response = await fetch('v1/render?width=160&height=120&aa=1', { method: 'POST', body: xml, headers: { 'Content-Type': 'application/xml' } });
+    const bitmap = await createImageBitmap(await response.blob()), canvas = document.createElement('canvas');
+    [canvas.width, canvas.height] = [160, 120];
+    const context = canvas.getContext('2d');
+    context.drawImage(bitmap, 0, 0);
+    return [...context.getImageData(0, 0, 160, 120).data];
+  }, references['box.xml']);
+  const reference = await pixels(image('Reference')), submission = await pixels(image('Submission')), difference = await pixels(image('Difference'));
+  assert.ok(differing(reference, drawn) < 200, `${differing(reference, drawn)} values of the reference differ from its render`);
+  assert.ok(differing(reference, submission) > 1000, `${differing(reference, submission)} values differ`);
+  const bright = difference.filter((value, i) => i % 4 === 0 && value > 128).length;
+  assert.ok(bright > 300, `${bright} bright pixels of the difference`);
+  await detail.getByRole('button', { name: 'Slider' }).click();
+  const slider = detail.getByRole('slider', { name: 'Share of the submission that is shown' });
+  await slider.fill('20');
+  assert.equal(await detail.locator('.compare .over').evaluate((one) => one.style.clipPath), 'inset(0px 80% 0px 0px)');
+  await detail.getByRole('button', { name: 'Difference' }).click();
+  assert.equal(await detail.locator('.images img').count(), 1);
+  // A cause names a line: it opens the document of the inner archive there.
+  const cause = detail.locator('.causes li').first();
+  assert.match(await cause.innerText(), /wrong sign[\s\S]*−[\d.]+/);
+  await cause.getByRole('button', { name: 'line 6' }).click();
+  const source = detail.getByRole('region', { name: /^Line 6 of .*work\.zip\/Box \(final\)\.xml$/ });
+  await source.waitFor();
+  assert.match(await source.locator('[aria-current]').innerText(), /<rotate angle="-40"/);
+  assert.ok(await source.evaluate((one) => one === document.activeElement));
+  assert.equal(await detail.locator('.source [contenteditable], .source textarea').count(), 0);
+  await detail.getByRole('button', { name: 'Close the document' }).click();
+  // The other task is another cause.
+  await detail.getByRole('button', { name: 'ball', exact: true }).click();
+  assert.match(await detail.locator('.causes').first().innerText(), /cone|shape/);
+  await view.close();
+});
+
+test("a person's marks: of a criterion, of a task, of the whole; a comment", async () => {
+  const view = await openGrade();
+  await gradeClass(view);
+  await rowOf(view, 'Bento').click();
+  const field = (name) => view.page.getByRole('spinbutton', { name: `Mark for ${name}`, exact: true });
+  const mark = async (at = 1) => Number((await cellsOf(view, 'Bento'))[at].trim());
+  const before = await mark(2), program = Number(await field('transforms').getAttribute('placeholder'));
+  await field('transforms').fill('1');
+  await field('transforms').press('Enter');
+  await view.page.keyboard.press('Tab');
+  assert.ok(Math.abs((await mark(2)) - (before - program + 1)) < 0.011, `${await mark(2)} of ${before} - ${program} + 1`);
+  assert.match((await cellsOf(view, 'Bento'))[4], /changed by hand/);
+  // Never more than the criterion has.
+  await field('transforms').fill('900');
+  await view.page.keyboard.press('Tab');
+  assert.ok((await mark(2)) <= 100);
+  await field('box').fill('50');
+  await view.page.keyboard.press('Tab');
+  assert.equal(await mark(2), 50);
+  await field('the submission').fill('12');
+  await view.page.keyboard.press('Tab');
+  assert.equal(await mark(1), 12);
+  for (const name of ['transforms', 'box', 'the submission']) {
+    await field(name).fill('');
+    await view.page.keyboard.press('Tab');
+  }
+  assert.equal(await mark(2), before);
+  // A submission that could not be graded gets a mark.
+  await rowOf(view, 'Eva').click();
+  await field('the submission').fill('40');
+  await view.page.keyboard.press('Tab');
+  assert.equal((await cellsOf(view, 'Eva'))[4].split(/\s/)[0], 'failed');
+  await view.close();
+});
+
+test('one after the other by the keyboard alone', async () => {
+  const view = await openGrade();
+  await gradeClass(view);
+  const { keyboard } = view.page, chosen = () => view.page.locator('#detail h2').innerText();
+  await keyboard.press('j');
+  assert.equal(await chosen(), 'Ana Sá');
+  await keyboard.press('ArrowDown');
+  assert.equal(await chosen(), 'Bento Dias');
+  await keyboard.press('k');
+  assert.equal(await chosen(), 'Ana Sá');
+  await keyboard.press('/');
+  await keyboard.type('carla');
+  assert.deepEqual(await names(view), ['Carla Lopes']);
+  await keyboard.press('Escape');
+  await keyboard.press('j');
+  assert.equal(await chosen(), 'Carla Lopes');
+  // A field keeps its keys.
+  await view.page.getByRole('textbox', { name: 'Comment on the submission' }).focus();
+  await keyboard.type('jk/');
+  assert.equal(await view.page.getByRole('textbox', { name: 'Comment on the submission' }).inputValue(), 'jk/');
+  // The table's row is reached by Tab, the panels by arrows.
+  await view.page.getByRole('tab', { name: 'Details' }).focus();
+  await keyboard.press('ArrowRight');
+  assert.ok(await view.page.getByRole('tab', { name: 'Rubric' }).evaluate((one) => one === document.activeElement && one.ariaSelected === 'true'));
+  await view.close();
+});
+
+test('a run is cancelled and goes on', async () => {
+  const view = await openGrade();
+  let held = [];
+  await view.page.route('**/v1/grade?*', (route) => new Promise((done) => held.push(() => done(route.continue().catch(() => undefined)))));
+  await choose(view, 'Reference: choose files', [file('reference.xml', scene(40))]);
+  await choose(view, 'Submissions: choose files', ['a', 'b', 'c', 'd'].map((name, i) => file(`${name}.xml`, scene(40 + i))));
+  await view.page.getByRole('button', { name: 'Grade', exact: true }).click();
+  await view.page.getByText('Grading 0 of 4…').waitFor();
+  const release = async () => {
+    while (held.length === 0) await view.page.waitForTimeout(20);
+    held.shift()();
+  };
+  await release();
+  await view.page.getByText('Grading 1 of 4…').waitFor();
+  await view.page.getByRole('button', { name: 'Cancel' }).click();
+  await view.page.getByRole('button', { name: 'Go on: 3 left' }).waitFor();
+  held = [];
+  await view.page.unroute('**/v1/grade?*');
+  await view.page.reload();
+  await view.page.getByRole('button', { name: 'Go on: 3 left' }).click();
+  await view.page.getByText('4 graded.').waitFor({ timeout: 60000 });
+  // A server that is gone stops the run, and says so; nothing is lost.
+  await view.page.route('**/v1/grade?*', (route) => route.abort());
+  await view.page.getByRole('button', { name: 'Grade all again' }).click();
+  await view.page.getByText('The server does not answer').waitFor();
+  await view.page.unroute('**/v1/grade?*');
+  await view.page.getByRole('button', { name: 'Grade', exact: true }).click();
+  await view.page.getByText('4 graded.').waitFor({ timeout: 60000 });
+  assert.equal((await cellsOf(view, 'a.xml'))[1].trim(), '100');
+  await view.close();
+});
+
+test('a reference that cannot be read is said once, and stops the run', async () => {
+  const view = await openGrade();
+  await choose(view, 'Reference: choose files', [file('reference.xml', notAScene)]);
+  await choose(view, 'Submissions: choose files', [file('a.xml', scene(40)), file('b.xml', scene(41))]);
+  await view.page.getByRole('button', { name: 'Grade', exact: true }).click();
+  await view.page.getByText(/The task “reference” cannot be graded: .*no element/).waitFor({ timeout: 60000 });
+  await choose(view, 'Submissions: choose files', [file('notes.txt', 'x')]);
+  await view.page.getByText('There is no scene, archive or image among these files.').waitFor();
+  await choose(view, 'Submissions: choose files', [file('overrides.csv', 'student,mark,comment\na.xml,many,\n')]);
+  await view.page.getByText('overrides.csv, line 2: the mark is "many"; expected a number of 0 or more').waitFor();
+  await view.close();
+});
+
+test('a browser that keeps nothing, or has no room, is said in words', async () => {
+  for (const [name, words] of [['QuotaExceededError', 'The browser has no more room'], ['SecurityError', 'The browser keeps nothing of this page']]) {
+    const view = await openPage(browser, 'about:blank');
+    await view.page.addInitScript((error) => {
+      IDBObjectStore.prototype.put = () => {
+        throw new DOMException('no', error);
+      };
+    }, name);
+    await view.page.goto(`${server.url}/#/grade`);
+    await choose(view, 'Reference: choose files', [file('reference.xml', scene(40))]);
+    await choose(view, 'Submissions: choose files', [file('a.xml', scene(-40))]);
+    await view.page.getByText(words).waitFor();
+    // The class is graded all the same, with its images.
+    await view.page.getByRole('button', { name: 'Grade', exact: true }).click();
+    await view.page.getByText('1 graded.').waitFor({ timeout: 60000 });
+    await rowOf(view, 'a.xml').click();
+    await view.page.waitForFunction(() => document.querySelector('#detail .images img')?.naturalWidth === 160);
+    await view.close();
+  }
+});
+
+test('an example class is one click away, and has mistakes', async () => {
+  const view = await openGrade();
+  await view.page.getByRole('button', { name: 'Try an example class' }).click();
+  await view.page.getByText('7 submissions', { exact: true }).first().waitFor({ timeout: 60000 });
+  await view.page.getByRole('button', { name: 'Grade', exact: true }).click();
+  await view.page.getByText('14 graded.').waitFor({ timeout: 120000 });
+  assert.equal((await cellsOf(view, 'Ana Reis'))[1].trim(), '100');
+  assert.match((await cellsOf(view, 'Bento Dias')).at(-1), /wrong sign/);
+  assert.match((await cellsOf(view, 'Carla Lopes')).at(-1), /wrong order/);
+  assert.match((await cellsOf(view, 'Gil Vaz')).join(), /not graded/);
+  await view.close();
+});
+
+test('single files and a phone: nothing is cut off', async () => {
+  const view = await openGrade({ viewport: { width: 360, height: 740 }, hasTouch: true });
+  await choose(view, 'Reference: choose files', [file('reference.xml', scene(40))]);
+  await choose(view, 'Submissions: choose files', [file('Ana Sá_7_assignsubmission_file_a.xml', scene(40)), file('bento.xml', scene(-40)), file('carla.xml', notAScene)]);
+  await choose(view, 'Submissions: choose files', [file('rubric.json', '{"title": "Of twenty", "points": 20}')]);
+  await view.page.getByRole('button', { name: 'Grade', exact: true }).click();
+  await view.page.getByText('3 graded.').waitFor({ timeout: 60000 });
+  await rowOf(view, 'bento').click();
+  await view.page.waitForFunction(() => document.querySelector('#detail .images img')?.naturalWidth === 160);
+  await view.page.locator('.causes .line').first().click();
+  await view.page.locator('.lines').waitFor();
+  assert.deepEqual(await view.page.locator('#list, #detail, .criteria, .side, .source, .filters, .drops').evaluateAll((all) =>
+    all.filter((one) => one.scrollWidth > one.clientWidth + 1 || one.getBoundingClientRect().right > 360).map((one) => one.id || one.className)), []);
+  assert.ok(await view.page.evaluate(() => document.documentElement.scrollWidth <= 360));
   await view.close();
 });
 

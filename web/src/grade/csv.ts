@@ -32,13 +32,15 @@ export function readCsv(text: string, file: string, needed: readonly string[]): 
     begin = line;
   };
   for (let i = 0; i < all.length; ++i) {
-    const c = all[i] as string, last = fields.length - 1;
+    const c = all[i] as string, last = fields.length - 1, field = fields[last] ?? '';
     if (c === '\n') ++line;
-    if (quoted && c === '"' && all[i + 1] === '"') fields[last] += all[i++];
-    else if (c === '"' && (quoted || fields[last]?.trim() === '')) quoted = !quoted;
+    if (quoted && c === '"' && all[i + 1] === '"') {
+      fields[last] = field + c;
+      ++i;
+    } else if (c === '"' && (quoted || field.trim() === '')) quoted = !quoted;
     else if (!quoted && c === separator) fields.push('');
     else if (!quoted && c === '\n') end();
-    else fields[last] += c;
+    else fields[last] = field + c;
   }
   end();
   const lacks = needed.filter((column) => !columns.includes(column));

@@ -25,7 +25,7 @@ const students: [string, (keyof typeof mistakes)[]][] = [
   ['Ana Reis', ['none']], ['Bento Dias', ['sign', 'light']], ['Carla Lopes', ['order', 'color']], ['Duarte Melo', ['light', 'color']],
   ['Eva Pinto', ['radians', 'camera']], ['Filipe Sá', ['camera']], ['Gil Vaz', ['broken']],
 ];
-const wantedScenes = ['robot-arm', 'snowman'];
+const wantedScenes = ['robot-arm', 'torch'];
 const maxFiles = 40;
 
 interface SceneParts {

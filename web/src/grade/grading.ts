@@ -2,13 +2,14 @@
 import { batch, computed, effect, signal, untracked } from '@preact/signals';
 import { findingsOf, patient, Problem, query, request, sentence } from '../api.ts';
 import { t } from '../words.ts';
+import { isStudent } from './names.ts';
 import { studentMark, type StudentMark, type TaskMark } from './marks.ts';
 import { comparedPoints, resolved, type Rubric, type RubricDocument } from './rubric.ts';
 import { rescored } from './score.ts';
 import * as store from './store.ts';
-import type { Handed } from './submissions.ts';
+import { byName, type Handed } from './submissions.ts';
 import { gradeTables, type GradeTables } from './tables.ts';
-import { resultKey, type Grade, type GroupMember, type Override, type Result, type Submission, type Task, type ViewImages } from './types.ts';
+import { resultKey, type Grade, type GroupMember, type Override, type Result, type Submission, type Task, type View, type ViewImages } from './types.ts';
 
 const atOnce = 2;
 
@@ -65,7 +66,7 @@ export const marks = computed((): StudentMark[] =>
   (rubrics.value.length === 0 ? [] : submissions.value.map((one) => studentMark(one, tasks.value.map((_, i) => taskMark(one, i)), rubrics.value, overrides.value))));
 
 /** What the service has to grade yet: those without a result, and those whose rubric asks for other renders. */
-export const pending = computed(() => submissions.value.flatMap((submission) => tasks.value.flatMap((task, at) => {
+export const pending = computed(() => submissions.value.flatMap((submission) => tasks.value.flatMap((_, at) => {
   const mark = taskMark(submission, at);
   return mark.state === 'waiting' || mark.state === 'stale' ? [{ submission, at }] : [];
 })));
@@ -121,7 +122,7 @@ export async function addSubmissions(all: readonly Handed[]): Promise<void> {
   for (const { id, file } of all) await store.submissionFiles.set(id, file);
   dropResults((key) => fresh.has(key.slice(key.indexOf('\n') + 1)));
   submissions.value = [...submissions.value.filter(({ id }) => !fresh.has(id)), ...all.map(({ file: _, ...one }) => one)]
-    .sort((a, b) => a.id.localeCompare(b.id));
+    .sort((a, b) => byName(a.id, b.id));
 }
 
 /** Replaces the tasks, or adds to them; a task's rubric stays where its name is the same. */
@@ -135,7 +136,7 @@ export async function setTasks(all: readonly Task[], isAdded: boolean): Promise<
   // Among several tasks the name of each says which scene of an archive is meant.
   const isOther = isAdded && before.length === 1;
   dropResults((key) => isOther || !isAdded || names.has(key.slice(0, key.indexOf('\n'))));
-  tasks.value = isAdded ? [...before.filter(({ name }) => !names.has(name)), ...fresh] : fresh;
+  tasks.value = isAdded ? [...before.filter(({ name }) => !names.has(name)), ...fresh].sort((a, b) => byName(a.name, b.name)) : fresh;
 }
 
 export function setRubric(at: number, rubric: Task['rubric']): void {
@@ -148,10 +149,11 @@ export function removeTask(name: string): void {
 }
 
 /** The marks of a person for a submission: a mark or a comment, or neither to take it back. */
-export function setOverride(row: Override): void {
-  const isSame = (one: Override): boolean => one.student === row.student && one.task === row.task && one.criterion === row.criterion;
+export function setOverride(row: Omit<Override, 'student'>, submission: Submission): void {
+  const isSame = (one: Override): boolean =>
+    isStudent(one.student, submission) && one.task.toLowerCase() === row.task.toLowerCase() && one.criterion === row.criterion;
   const rest = overrides.value.filter((one) => !isSame(one));
-  overrides.value = row.mark === null && row.comment.trim() === '' ? rest : [...rest, row];
+  overrides.value = row.mark === null && row.comment.trim() === '' ? rest : [...rest, { ...row, student: submission.id }];
 }
 
 /** Grades all anew. */
@@ -176,7 +178,7 @@ const blobOf = (url: string): Blob => {
   return new Blob([Uint8Array.from(atob(base64), (c) => c.charCodeAt(0))], { type: /:(.*?);/.exec(head)?.[1] ?? 'image/jpeg' });
 };
 
-type Answer = Grade & { views: { picture?: string; heat?: string; expected?: string }[] };
+type Answer = Omit<Grade, 'views'> & { views: (View & { picture?: string; heat?: string; expected?: string })[] };
 
 /** Takes the images out of an answer, so that memory holds figures alone. */
 function splitImages(answer: Answer): { grade: Grade; images: ViewImages[]; expected: (Blob | null)[] } {
@@ -186,7 +188,7 @@ function splitImages(answer: Answer): { grade: Grade; images: ViewImages[]; expe
     expected.push(wanted ? blobOf(wanted) : null);
     return view;
   });
-  return { grade: { ...answer, views } as Grade, images, expected };
+  return { grade: { ...answer, views }, images, expected };
 }
 
 // Of these a rubric or a reference is the cause, and no submission can be graded.

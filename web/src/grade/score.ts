@@ -189,7 +189,9 @@ function explains(score: Score, grade: Grade): boolean {
 export function rescored(grade: Grade, before: Rubric, now: Rubric, tables: GradeTables): Grade | null {
   if (canonical(before) === canonical(now)) return grade;
   if (basisOf(before) !== basisOf(now)) return null;
-  if (grade.refused) return { ...grade, most: now.points };
+  const manual = now.manual.map(({ id, text, points }): CriterionGrade =>
+    ({ measure: id, kind: 'manual', text, state: 'open', points: 0, most: rounded(points), reason: t('A person marks this.') }));
+  if (grade.refused) return { ...grade, most: now.points, criteria: [...grade.criteria.filter(({ kind }) => kind !== 'manual'), ...manual] };
   const penalty = newPenalty(grade, before, now, tables);
   const scores = assumptionsOf(grade, before).filter((one) => {
     const own = scoreBy(grade, before, tables, one);
@@ -209,8 +211,7 @@ export function rescored(grade: Grade, before: Rubric, now: Rubric, tables: Grad
   }));
   if ([...required.values()].some((one) => one === undefined)) return null;
   for (const one of required.values()) if (one) criteria.push(one);
-  for (const { id, text, points } of now.manual)
-    criteria.push({ measure: id, kind: 'manual', text, state: 'open', points: 0, most: rounded(points), reason: t('A person marks this.') });
+  criteria.push(...manual);
   const findings = grade.findings.map((cause, i) => {
     const rule = required.get(cause.criterion);
     return { ...cause, points: rule ? rounded(rule.most - rule.points) : (score.causes[i] ?? 0) };

@@ -52,10 +52,13 @@ function handed(subjects: readonly Subject[]): Handed[] {
   });
 }
 
+/** The order of the command line, which depends on no language. */
+export const byName = (a: string, b: string): number => (a < b ? -1 : a > b ? 1 : 0);
+
 const grouped = <T>(all: readonly T[], keyOf: (one: T) => string): [string, T[]][] => {
   const groups = new Map<string, T[]>();
   for (const one of all) groups.set(keyOf(one), [...(groups.get(keyOf(one)) ?? []), one]);
-  return [...groups].sort(([a], [b]) => a.localeCompare(b));
+  return [...groups].sort(([a], [b]) => byName(a, b));
 };
 
 /**
@@ -137,6 +140,7 @@ export function tasksOf(files: readonly NamedFile[]): Task[] {
     subjects = grouped(named.filter(({ path }) => path.includes('/')), ({ path }) => path.split('/')[0] as string)
       .filter(([, all]) => all.some(({ path }) => isScene(path))).map(([name, all]) => subjectOf(name, all));
   if (subjects.length === 0) subjects = atTop.filter(({ path }) => picture.test(path)).map((one) => subjectOf(stemOf(one.path), [one]));
+  subjects.sort((a, b) => byName(a.fileName, b.fileName));
   const names = uniqueNames(subjects.map(({ name }) => name));
   return subjects.map((reference, i) => ({ name: names[i] as string, reference: { ...reference, name: names[i] as string }, rubric: null }));
 }

@@ -6,7 +6,7 @@ import { createRequire } from 'node:module';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { axeFindings, binary, launch, openPage, root, startServer } from './fixture.mjs';
-import { cellsOf, choose, classFiles, file, folderOf, gradeClass, moodle, notAScene, references, rowOf, saved, scene, unzipped } from './grade_class.mjs';
+import { cellsOf, choose, classZip, file, folderOf, gradeClass, moodle, notAScene, references, rowOf, saved, scene, unzipped } from './grade_class.mjs';
 
 let server, browser, score;
 before(async () => {
@@ -17,7 +17,11 @@ after(async () => {
   await server?.stop();
 });
 
-const openGrade = (options = {}) => openPage(browser, `${server.url}/#/grade`, { viewport: { width: 1280, height: 900 }, acceptDownloads: true, ...options });
+async function openGrade(options = {}) {
+  const view = await openPage(browser, `${server.url}/#/grade`, { viewport: { width: 1280, height: 900 }, acceptDownloads: true, ...options });
+  view.page.setDefaultTimeout(20000);
+  return view;
+}
 
 /** The page's arithmetic of marks, as a module of Node.js. */
 async function scoreModule() {
@@ -168,10 +172,9 @@ test('a rubric of requirements needs no reference', async () => {
 test('the files that the page writes are those of farol grade', async () => {
   const overrides = 'student,task,criterion,mark,comment\nBento Dias,box,lights,3,"half, right"\n11,,,25,by talk\nCarla Lopes,ball,,,look again\n';
   const groups = `submission,full name,identifier\n${moodle('Ana Sá', 7)},Ana Sá,7\n${moodle('Ana Sá', 7)},Rui Nó,12\n`, rubric = { title: 'Two', points: 20, weight: 3 };
-  const { folder, remove } = folderOf({ ...Object.fromEntries(Object.entries(classFiles).map(([path, text]) => [`class/${path}`, text])),
-    ...Object.fromEntries(Object.entries(references).map(([path, text]) => [`reference/${path}`, text])),
+  const { folder, remove } = folderOf({ 'class.zip': classZip, ...Object.fromEntries(Object.entries(references).map(([path, text]) => [`reference/${path}`, text])),
     'report/overrides.csv': overrides, 'report/groups.csv': groups, 'rubrics/box.json': JSON.stringify(rubric) });
-  const { status, stderr } = spawnSync(binary, ['grade', '--reference', 'reference', 'class', '-o', 'report', '--rubric', 'rubrics', '--feedback', '--jobs', '2'], { cwd: folder, encoding: 'utf8' });
+  const { status, stderr } = spawnSync(binary, ['grade', '--reference', 'reference', 'class.zip', '-o', 'report', '--rubric', 'rubrics', '--feedback', '--jobs', '2'], { cwd: folder, encoding: 'utf8' });
   assert.equal(status, 0, stderr);
   const cli = (name) => readFileSync(join(folder, 'report', name));
   const view = await openGrade({ locale: 'en-GB' });

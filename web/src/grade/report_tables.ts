@@ -117,8 +117,9 @@ export function readGroups(text: string, file: string): GroupMember[] {
     ({ submission: table.at(i, 'submission'), name: table.at(i, 'full name'), identifier: table.at(i, 'identifier').replace(/^participant /i, '') }));
 }
 
-const forMarkup = (text: string): string =>
-  text.replaceAll('&', '&amp;').replaceAll('<', '&lt;').replaceAll('>', '&gt;').replaceAll('"', '&quot;');
+/** Text of an attribute or an element: characters that XML has no place for are left out. */
+const forMarkup = (text: string): string => text.replace(/[\u0000-\u0008\u000B-\u001F\uFFFE\uFFFF]/g, '')
+  .replaceAll('&', '&amp;').replaceAll('<', '&lt;').replaceAll('>', '&gt;').replaceAll('"', '&quot;').replaceAll('\n', '&#10;').replaceAll('\t', '&#9;');
 
 /** JUnit's XML, for CI services. */
 export function junitXml(report: ClassReport): string {

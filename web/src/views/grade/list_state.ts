@@ -1,7 +1,7 @@
 // What the table shows: order, filters and the chosen submission, kept over a reload.
 import { computed, effect, signal } from '@preact/signals';
 import { marks } from '../../grade/grading.ts';
-import { isByHand, isDone, type StudentMark } from '../../grade/marks.ts';
+import { isByHand, isDone, type StudentMark, type TaskMark } from '../../grade/marks.ts';
 import { recall, remember } from '../../storage.ts';
 
 export const states = ['passed', 'failed', 'not graded', 'waiting', 'by hand'] as const;
@@ -49,15 +49,21 @@ export function stateOf(mark: StudentMark): Exclude<State, 'by hand'> {
   return !mark.graded ? 'not graded' : mark.passed ? 'passed' : 'failed';
 }
 
-/** Why most was lost: a failure, the reason that nothing was graded, the first cause that costs, or a criterion. */
+/** Why a task lost what it lost: a failure, a cause that costs, what is missing, or a criterion. */
+function causeOf({ grade, failure }: TaskMark): string {
+  if (failure || !grade) return failure?.message ?? '';
+  if (grade.refused) return grade.reason?.message ?? '';
+  const costly = grade.findings.filter(({ points }) => points > 0).sort((a, b) => b.points - a.points)[0];
+  const cause = costly ?? grade.findings.find(({ code }) => code.endsWith('.missing'));
+  if (cause) return cause.message;
+  const lost = grade.criteria.filter((one) => one.points < one.most).sort((a, b) => (b.most - b.points) - (a.most - a.points));
+  return lost[0]?.reason ?? '';
+}
+
+/** Why most was lost, of the task that lost most. */
 export function firstCause({ tasks }: StudentMark): string {
-  const failure = tasks.find((one) => one.failure)?.failure, refused = tasks.find(({ grade }) => grade?.refused)?.grade;
-  if (failure) return failure.message;
-  if (refused) return refused.reason?.message ?? '';
-  const causes = tasks.flatMap(({ grade }) => grade?.findings ?? []).filter(({ points }) => points > 0).sort((a, b) => b.points - a.points);
-  if (causes[0]) return causes[0].message;
-  const lost = tasks.flatMap(({ grade }) => grade?.criteria ?? []).filter((one) => one.points < one.most);
-  return lost.sort((a, b) => (b.most - b.points) - (a.most - a.points))[0]?.reason ?? '';
+  const share = ({ grade, failure }: TaskMark): number => (failure || grade?.refused ? -1 : grade ? grade.points / grade.most : 1);
+  return [...tasks].sort((a, b) => share(a) - share(b)).map(causeOf).find((text) => text !== '') ?? '';
 }
 
 const codesOf = ({ tasks }: StudentMark): string[] => tasks.flatMap(({ grade, failure }) => [

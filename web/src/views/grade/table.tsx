@@ -50,9 +50,9 @@ export function Filters() {
   );
 }
 
-function TaskCell({ task: { grade, failure, state } }: { task: TaskMark }) {
+function TaskCell({ task: { task, grade, failure, state } }: { task: TaskMark }) {
   const text = failure || grade?.refused ? '–' : grade ? mark(grade.points) : '';
-  return <td class={state === 'stale' ? 'figure stale' : 'figure'}>{state === 'grading' ? '…' : text}{state === 'stale' && <span class="hidden"> {t('by an earlier rubric')}</span>}</td>;
+  return <td data-task={task} class={state === 'stale' ? 'figure stale' : 'figure'}>{state === 'grading' ? '…' : text}{state === 'stale' && <span class="hidden"> {t('by an earlier rubric')}</span>}</td>;
 }
 
 /** How the mark differs from the one before the rubric was changed. */

@@ -1,5 +1,0 @@
-<<<<<<<< HEAD:web/page/assets/chunk-EJLGQJV3.js
-import{a as c}from"./chunk-BUOMEY7Z.js";import{b as e,c as s}from"./chunk-VGKU7FMG.js";import{d as a,g as n}from"./chunk-TP2LXNAI.js";async function d(t){try{let o=t.id===null?{}:{base:t.id},r=await(await a(`v1/scenes?${n(o)}`,{method:"POST",...c({...t.document(),text:t.text.value})})).json(),i={orbit:t.orbit.value,walk:t.walk.value,time:t.clock.time.value,options:t.options.value};t.forgetDraft(),location.hash=s(r.id,e(i))}catch(o){t.report(o)}}export{d as a};
-========
-import{a as c}from"./chunk-3TBL7HX3.js";import{b as e,c as s}from"./chunk-UZIV5AH6.js";import{i as a,l as n}from"./chunk-VJMTGN2C.js";async function d(t){try{let o=t.id===null?{}:{base:t.id},r=await(await a(`v1/scenes?${n(o)}`,{method:"POST",...c({...t.document(),text:t.text.value})})).json(),i={orbit:t.orbit.value,walk:t.walk.value,time:t.clock.time.value,options:t.options.value};t.forgetDraft(),location.hash=s(r.id,e(i))}catch(o){t.report(o)}}export{d as a};
->>>>>>>> 6a6ccfe (web: page of the grade page):web/page/assets/chunk-7AFRULSZ.js

@@ -105,7 +105,7 @@ class Video {
         if (!encoder_) open(width, height);
         checked(av_frame_make_writable(frame_.get()), "frame");
         const std::uint8_t* from = onBlack(pixels, width, height);
-        const int stride = encoder_->width * 3;
+        const int stride = encoder_->width * kChannels;
         sws_scale(scaler_.get(), &from, &stride, 0, encoder_->height, frame_->data,
                   frame_->linesize);
         frame_->pts = next_++;
@@ -121,6 +121,8 @@ class Video {
     }
 
   private:
+    static constexpr int kChannels = 4;
+
     void open(int width, int height) {
         const AVRational rate = av_d2q(settings_.fps, 100'000);
         encoder_.reset(avcodec_alloc_context3(codec_));
@@ -155,7 +157,7 @@ class Video {
         frame_->width = encoder_->width;
         frame_->height = encoder_->height;
         checked(av_frame_get_buffer(frame_.get(), 0), "frame");
-        scaler_.reset(sws_getContext(encoder_->width, encoder_->height, AV_PIX_FMT_RGB24,
+        scaler_.reset(sws_getContext(encoder_->width, encoder_->height, AV_PIX_FMT_RGB0,
                                      encoder_->width, encoder_->height, encoder_->pix_fmt,
                                      SWS_AREA | SWS_ACCURATE_RND | SWS_FULL_CHR_H_INP, nullptr,
                                      nullptr, nullptr));
@@ -173,25 +175,30 @@ class Video {
         checked(av_opt_set_int(encoder_->priv_data, "crf", crf, 0), "quality");
         if (isVp9) {
             encoder_->bit_rate = 0;
-            av_opt_set(encoder_->priv_data, "deadline", "good", 0);
-            av_opt_set_int(encoder_->priv_data, "cpu-used", 5, 0);
+            av_opt_set(encoder_->priv_data, "deadline", "realtime", 0);
+            av_opt_set_int(encoder_->priv_data, "cpu-used", 6, 0);
             av_opt_set_int(encoder_->priv_data, "lag-in-frames", 0, 0);
         } else {
-            av_opt_set(encoder_->priv_data, "preset", "faster", 0);
+            av_opt_set(encoder_->priv_data, "preset", "veryfast", 0);
             av_opt_set(encoder_->priv_data, "x264-params", "sync-lookahead=0", 0);
         }
     }
 
-    /// Rows of RGB of the encoder's size; the last column and row are repeated.
+    /// Rows of RGBx of the encoder's size; the last column and row are repeated. Opaque frames of
+    /// that size are returned as they are.
     const std::uint8_t* onBlack(const std::uint8_t* pixels, int width, int height) {
+        const auto count = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+        std::uint8_t alphas = 255;
+        for (std::size_t i = 0; i < count; ++i) alphas &= pixels[kChannels * i + 3];
+        if (alphas == 255 && width == encoder_->width && height == encoder_->height) return pixels;
         rgb_.resize(static_cast<std::size_t>(encoder_->width) *
-                    static_cast<std::size_t>(encoder_->height) * 3);
+                    static_cast<std::size_t>(encoder_->height) * kChannels);
         std::uint8_t* to = rgb_.data();
         for (int y = 0; y < encoder_->height; ++y) {
             const std::uint8_t* row =
-                pixels + static_cast<std::ptrdiff_t>(std::min(y, height - 1)) * width * 4;
-            for (int x = 0; x < encoder_->width; ++x) {
-                const std::uint8_t* pixel = row + std::min(x, width - 1) * 4;
+                pixels + static_cast<std::ptrdiff_t>(std::min(y, height - 1)) * width * kChannels;
+            for (int x = 0; x < encoder_->width; ++x, ++to) {
+                const std::uint8_t* pixel = row + std::min(x, width - 1) * kChannels;
                 for (int c = 0; c < 3; ++c)
                     *to++ = static_cast<std::uint8_t>((pixel[c] * pixel[3] + 127) / 255);
             }

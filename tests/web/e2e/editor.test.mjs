@@ -4,7 +4,7 @@ import { mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync, cpSync } f
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
-import { canvasPixels, launch, openPage, root, settled, startServer } from './fixture.mjs';
+import { axeFindings, canvasPixels, launch, openPage, root, settled, startServer } from './fixture.mjs';
 
 let server, browser, scratch;
 before(async () => {
@@ -102,6 +102,31 @@ test('completion offers the elements and attributes of the schema', async () => 
   await options.first().waitFor();
   assert.equal((await options.allInnerTexts())[0], 'cutoff');
   await view.page.keyboard.press('Escape');
+  await view.close();
+});
+
+test('the reference shows the element at the cursor, marks the attribute, and can be browsed', async () => {
+  const view = await openPage(browser, `${server.url}/#/new`, { viewport: { width: 1200, height: 900 }, bypassCSP: true });
+  await settled(view);
+  await view.page.locator('.cm-content').waitFor();
+  await typeAfter(view, '<light type="directional"', ' cutoff="20');
+  const reference = view.page.getByRole('region', { name: 'Reference' }), element = reference.getByRole('combobox', { name: 'Element' });
+  await view.page.waitForFunction(() => document.querySelector('.reference select')?.value === 'light');
+  // As in the service's own tables.
+  const { elements } = JSON.parse(readFileSync(join(root, 'api/schema.json'), 'utf8')), light = elements.find(({ name }) => name === 'light');
+  assert.deepEqual(await reference.locator('dt').allInnerTexts(), light.attributes.map(({ name }) => name));
+  assert.ok((await reference.innerText()).includes(light.attributes.find(({ name }) => name === 'cutoff').meaning.replaceAll('`', '')));
+  assert.equal(await reference.locator('.here dt').innerText(), 'cutoff');
+  assert.deepEqual(await axeFindings(view.page), []);
+  await element.selectOption('model');
+  assert.equal(await reference.locator('.here').count(), 0);
+  await reference.getByRole('button', { name: 'color', exact: true }).click();
+  assert.equal(await element.inputValue(), 'color');
+  await view.page.getByRole('button', { name: 'Reference', exact: true }).click();
+  await reference.waitFor({ state: 'detached' });
+  await view.page.reload();
+  await view.page.locator('.cm-content').waitFor();
+  assert.equal(await reference.count(), 0, 'it stays closed');
   await view.close();
 });
 

@@ -82,3 +82,39 @@ for (const language of languages)
     assert.deepEqual(keys.filter((key) => !known.has(key)), [], `unused in web/languages/${language}.json`);
     assert.deepEqual(keys, [...keys].sort(), `keys of web/languages/${language}.json are sorted`);
   });
+
+/** Names and units are the same in all languages. */
+const untranslated = /^(Farol|API|XML|PNG|curl|MiB|MB|kB|px|ms|CSV|JSON|HTML|[^A-Za-z]|[A-Za-z](?![A-Za-z]))*$/;
+const shownAttributes = ['title', 'label', 'hint', 'placeholder', 'alt', 'aria-label', 'aria-valuetext'];
+
+/** Texts of a view that are shown as they are written. */
+function bareTexts(file: TypeScript.SourceFile): string[] {
+  const out: string[] = [];
+  const note = (node: TypeScript.Node, text: string): void => {
+    if (!untranslated.test(text.trim())) out.push(`${placeOf(node)}: ${text.trim()}`);
+  };
+  /** The literals that an expression can be: not those that are given to a call or compared. */
+  const noteValues = (node: TypeScript.Expression | undefined): void => {
+    if (!node) return;
+    if (ts.isStringLiteralLike(node)) note(node, node.text);
+    else if (ts.isTemplateExpression(node)) note(node, [node.head.text, ...node.templateSpans.map(({ literal }) => literal.text)].join(' '));
+    else if (ts.isConditionalExpression(node)) [node.whenTrue, node.whenFalse].forEach(noteValues);
+    else if (ts.isParenthesizedExpression(node)) noteValues(node.expression);
+    else if (ts.isBinaryExpression(node) && ['&&', '||', '??', '+'].includes(node.operatorToken.getText())) [node.left, node.right].forEach(noteValues);
+  };
+  visit(file, (node) => {
+    if (ts.isJsxText(node)) note(node, node.text);
+    else if (ts.isJsxExpression(node) && !ts.isJsxAttribute(node.parent)) noteValues(node.expression);
+    else if (ts.isJsxAttribute(node) && shownAttributes.includes(node.name.getText()))
+      noteValues(node.initializer && ts.isJsxExpression(node.initializer) ? node.initializer.expression : (node.initializer as TypeScript.Expression | undefined));
+    else if (ts.isCallExpression(node) && ts.isIdentifier(node.expression) && ['say', 'copy', 'confirm', 'prompt'].includes(node.expression.text)) node.arguments.forEach(noteValues);
+  });
+  return out;
+}
+
+test('no view shows a text that is not translated', () => {
+  const sample = ts.createSourceFile('sample.tsx', "const a = <p title='Two words' class='x'>{b ? 'Yes' : t('No')} Hello {`${c} s`} 12 px</p>; say(d || 'Done');", ts.ScriptTarget.ES2021, true, ts.ScriptKind.TSX);
+  assert.deepEqual(bareTexts(sample).map((text) => text.replace(/^.*: /, '')), ['Two words', 'Yes', 'Hello', 'Done']);
+  const views = sources.filter(({ fileName }) => fileName !== 'web/src/views/grade_page.tsx'); // which is being replaced
+  assert.deepEqual(views.flatMap(bareTexts), []);
+});

@@ -11,11 +11,18 @@ import { Tool } from './ui.tsx';
 import { panel } from './viewer_page.tsx';
 import { saveBlob } from './save.ts';
 import { t } from '../words.ts';
+import { recall, remember } from '../storage.ts';
+import { ReferencePanel } from './reference_panel.tsx';
 
 export function Editor({ viewer }: { viewer: Viewer }) {
   const host = useRef<HTMLDivElement>(null);
   const [problem, setProblem] = useState('');
   const [storing, setStoring] = useState(false);
+  const [cursor, setCursor] = useState(0), [hasReference, setReference] = useState(() => recall('reference') !== 'off' && matchMedia('(min-width: 60rem)').matches);
+  const toggleReference = (): void => {
+    remember('reference', hasReference ? 'off' : 'on');
+    setReference(!hasReference);
+  };
   const ready = viewer.text.value !== null;
   useEffect(() => {
     viewer.loadText().catch((fault: unknown) => setProblem(findingsOf(fault).map((one) => sentence(one)).join(' ')));
@@ -23,6 +30,7 @@ export function Editor({ viewer }: { viewer: Viewer }) {
   useEffect(() => {
     if (!ready) return;
     const editor: CodeEditor = createEditor(host.current as HTMLDivElement, viewer.text.peek() ?? '', (text) => viewer.edit(text, 'typing'), () => {
+      setCursor(editor.cursor());
       const around = entryAround(parseXml(viewer.text.peek() ?? ''), editor.cursor());
       viewer.selected.value = around && kindOf(around) !== 'scene' ? around.start : null;
     });
@@ -61,10 +69,12 @@ export function Editor({ viewer }: { viewer: Viewer }) {
       {problem && <p class="problem" role="alert">{problem}</p>}
       {!ready && !problem && <p class="note">{t('Loading…')}</p>}
       <div class="code" ref={host} />
+      {hasReference && ready && <ReferencePanel text={viewer.text.value ?? ''} at={cursor} />}
       <div class="editor-foot">
         <span class="note" role="status">{viewer.edited.value ? t('Edited; kept in this browser.') : t('As on the server.')}</span>
         <span class="space" />
         {viewer.edited.value && <button type="button" class="link" onClick={() => viewer.discardEdits()}>{t('Discard')}</button>}
+        <Tool icon="help" label={t('Reference')} hint={t('The scene language: the element at the cursor')} pressed={hasReference} onClick={toggleReference} />
         <Tool icon="download" label={t('Download the XML')} onClick={save} />
         <button type="button" class="button small" disabled={storing || !ready} onClick={() => void store()}>
           {storing ? t('Storing…') : t('Store and share')}

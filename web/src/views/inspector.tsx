@@ -10,6 +10,7 @@ import type { Viewer } from '../scene/viewer.ts';
 import { spellings } from '../scene/language.ts';
 import { attributeOf, parseXml, type XmlElement } from '../scene/xml.ts';
 import { Section } from './ui.tsx';
+import { msg, t } from '../words.ts';
 
 const filter = signal('');
 const maxListed = 200;
@@ -36,20 +37,21 @@ function Slider({ label, value, min, max, step, onInput, short }: {
   );
 }
 
-const names: Record<Component, string> = { diffuse: 'Diffuse', ambient: 'Ambient', specular: 'Specular', emissive: 'Emissive' };
+const names: Record<Component, string> = { diffuse: msg('Diffuse'), ambient: msg('Ambient'), specular: msg('Specular'), emissive: msg('Emissive') };
+const channels = [msg('red'), msg('green'), msg('blue')];
 
 function ColorRow({ edits, component }: { edits: Edits; component: Component }) {
-  const { viewer, roots, element, kind, index } = edits;
+  const { viewer, roots, element, kind, index } = edits, name = t(names[component]);
   const color = colorOf(roots, element, component);
   const write = (next: Rgb): void => viewer.edit(setColor(viewer.text.peek() ?? '', kind, index, component, next), 'dragging');
   const set = (channel: number, value: number): void => write(color.map((x, i) => (i === channel ? value / 255 : x)) as unknown as Rgb);
   return (
     <fieldset class="color">
-      <legend>{names[component]}</legend>
-      <input type="color" aria-label={`${names[component]} colour`} value={toHex(color)} onInput={(event) => write(fromHex(event.currentTarget.value))} />
+      <legend>{name}</legend>
+      <input type="color" aria-label={t('{component} colour', { component: name })} value={toHex(color)} onInput={(event) => write(fromHex(event.currentTarget.value))} />
       <div>
-        {['Red', 'Green', 'Blue'].map((name, i) => (
-          <Slider key={name} label={`${names[component]} ${name.toLowerCase()}`} short={name.charAt(0)} min={0} max={255} step={1}
+        {channels.map((channel, i) => (
+          <Slider key={channel} label={t('{component} {channel}', { component: name, channel: t(channel) })} short={t(channel).charAt(0).toUpperCase()} min={0} max={255} step={1}
             value={Math.round((color[i] as number) * 255)} onInput={(value) => set(i, value)} />
         ))}
       </div>
@@ -65,15 +67,15 @@ function Model({ edits }: { edits: Edits }) {
     <>
       {(texture || textures.length > 0) && (
         <label class="field">
-          <span>Texture</span>
+          <span>{t('Texture')}</span>
           <select value={texture} onChange={(event) => viewer.edit(setTexture(viewer.text.peek() ?? '', index, event.currentTarget.value), 'done')}>
-            {!texture && <option value="" selected>none</option>}
+            {!texture && <option value="" selected>{t('none')}</option>}
             {textures.map((name) => <option key={name} value={name} selected={name === texture}>{name}</option>)}
           </select>
         </label>
       )}
       {components.map((component) => <ColorRow key={component} edits={edits} component={component} />)}
-      <Slider label="Shininess" min={0} max={128} step={1} value={shininessOf(element)}
+      <Slider label={t('Shininess')} min={0} max={128} step={1} value={shininessOf(element)}
         onInput={(value) => viewer.edit(setShininess(viewer.text.peek() ?? '', index, value), 'dragging')} />
     </>
   );
@@ -93,18 +95,18 @@ function Light({ edits }: { edits: Edits }) {
   const vector = attributeOf(element, axes.flatMap((axis) => spellings('light', `dir${axis}`))) || !directional ? 'dir' : 'pos';
   return (
     <>
-      {angles ? [slider('Alpha', ['alpha'], 0, -180, 180, 1), slider('Beta', ['beta'], 0, -90, 90, 1)] : (
+      {angles ? [slider(t('Alpha'), ['alpha'], 0, -180, 180, 1), slider(t('Beta'), ['beta'], 0, -90, 90, 1)] : (
         <>
-          {!directional && axes.map((axis) => slider(`Place ${axis}`, spellings('light', `pos${axis}`), 0, -reach, reach, reach / 200))}
-          {(directional || spot) && axes.map((axis) => slider(`Direction ${axis}`, spellings('light', `${vector}${axis}`), 0, -1, 1, 0.01))}
+          {!directional && axes.map((axis) => slider(t('Place {axis}', { axis }), spellings('light', `pos${axis}`), 0, -reach, reach, reach / 200))}
+          {(directional || spot) && axes.map((axis) => slider(t('Direction {axis}', { axis }), spellings('light', `${vector}${axis}`), 0, -1, 1, 0.01))}
         </>
       )}
-      {spot && slider('Cutoff', spellings('light', 'cutoff'), 180, 0, 90, 0.5)}
-      {spot && slider('Exponent', spellings('light', 'exponent'), 0, 0, 128, 1)}
+      {spot && slider(t('Cutoff'), spellings('light', 'cutoff'), 180, 0, 90, 0.5)}
+      {spot && slider(t('Exponent'), spellings('light', 'exponent'), 0, 0, 128, 1)}
       {!directional && [
-        slider('Constant', spellings('light', 'constant'), 1, 0, 4, 0.01),
-        slider('Linear', spellings('light', 'linear'), 0, 0, 1, 0.005),
-        slider('Quadratic', spellings('light', 'quadratic'), 0, 0, 1, 0.005),
+        slider(t('Constant'), spellings('light', 'constant'), 1, 0, 4, 0.01),
+        slider(t('Linear'), spellings('light', 'linear'), 0, 0, 1, 0.005),
+        slider(t('Quadratic'), spellings('light', 'quadratic'), 0, 0, 1, 0.005),
       ]}
       {(['diffuse', 'ambient', 'specular'] as const).map((component) => <ColorRow key={component} edits={edits} component={component} />)}
     </>
@@ -121,13 +123,13 @@ function PartList({ viewer, parts }: { viewer: Viewer; parts: readonly Part[] })
         return (
           <li key={`${part.kind}${part.index}`}>
             <button type="button" aria-pressed={on} onClick={() => (viewer.selected.value = on ? null : part.start)}>
-              <b>{part.kind === 'light' ? `Light: ${part.label}` : part.label}</b>
-              <span>{[part.group, `line ${part.line}`].filter(Boolean).join(', ')}</span>
+              <b>{part.kind === 'light' ? t('Light: {name}', { name: part.label }) : part.label}</b>
+              <span>{[part.group, t('line {line}', { line: part.line })].filter(Boolean).join(', ')}</span>
             </button>
           </li>
         );
       })}
-      {found.length > maxListed && <li class="note">and {found.length - maxListed} more: type to find one</li>}
+      {found.length > maxListed && <li class="note">{t('and {count} more: type to find one', { count: found.length - maxListed })}</li>}
     </ul>
   );
 }
@@ -141,17 +143,17 @@ export function Inspector({ viewer }: { viewer: Viewer }) {
   const roots = useMemo(() => parseXml(text ?? ''), [text]);
   const parts = useMemo(() => partsOf(text ?? '', roots), [text, roots]);
   if (problem) return <p class="problem" role="alert">{problem}</p>;
-  if (text === null) return <p class="note">Loading…</p>;
+  if (text === null) return <p class="note">{t('Loading…')}</p>;
   const part = parts.find((one) => one.start === selected), element = part && elementOf(roots, part.kind, part.index);
   return (
     <div class="sections">
-      <Section title={`Lights and models (${parts.length})`}>
-        <input type="search" aria-label="Find a light or model" placeholder="Find, or click in the picture" value={filter.value}
+      <Section title={t('Lights and models ({count})', { count: parts.length })}>
+        <input type="search" aria-label={t('Find a light or model')} placeholder={t('Find, or click in the image')} value={filter.value}
           onInput={(event) => (filter.value = event.currentTarget.value)} />
         <PartList viewer={viewer} parts={parts} />
       </Section>
       {element && part && (
-        <Section title={`${part.kind} ${part.label}`}>
+        <Section title={part.kind === 'light' ? t('Light: {name}', { name: part.label }) : t('Model: {name}', { name: part.label })}>
           {part.kind === 'model'
             ? <Model edits={{ viewer, roots, element, kind: part.kind, index: part.index }} />
             : <Light edits={{ viewer, roots, element, kind: part.kind, index: part.index }} />}
@@ -159,8 +161,8 @@ export function Inspector({ viewer }: { viewer: Viewer }) {
       )}
       {viewer.edited.value && (
         <p class="note">
-          The XML was edited and is kept in this browser.{' '}
-          <button type="button" class="link" onClick={() => viewer.discardEdits()}>Discard the edits</button>
+          {t('The XML was edited and is kept in this browser.')}{' '}
+          <button type="button" class="link" onClick={() => viewer.discardEdits()}>{t('Discard the edits')}</button>
         </p>
       )}
     </div>

@@ -2,7 +2,7 @@
 import { useEffect } from 'preact/hooks';
 import { deleteScene, findingsOf, sentence } from '../api.ts';
 import type { Viewer } from '../scene/viewer.ts';
-import { hasOption, loadOptions } from '../reference.ts';
+import { hasOption, loadOptions } from '../image_options.ts';
 import { cullingShown, showHud } from './hud.tsx';
 import { Check, Choice, say, Section } from './ui.tsx';
 import { msg, number, t } from '../words.ts';

@@ -71,7 +71,7 @@ function Criteria({ document, rubric, all, set }: EditProps) {
   const write = (criteria: readonly Criterion[]): void => set({ ...document, criteria });
   const change = (at: number, part: Partial<Criterion>): void => write(rubric.criteria.map((one, i) => (i === at ? { ...one, ...part } : one)));
   return (
-    <details class="entry" open><summary>criteria <small class="note">{t('the comparison with the reference; weights are shares of {points} points', { points: comparedPoints(rubric) })}</small></summary>
+    <details class="entry" open><summary><code>criteria</code> <small class="note">{t('the comparison with the reference; weights are shares of {points} points', { points: comparedPoints(rubric) })}</small></summary>
       <ul class="criteria">
         {rubric.criteria.map((one, i) => (
           <CriterionRow key={one.measure} one={one} share={weights > 0 ? one.weight / weights : 0} summary={all.gradeMeasures.find(({ name }) => name === one.measure)?.summary ?? ''}

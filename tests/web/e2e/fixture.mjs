@@ -9,6 +9,8 @@ import { fileURLToPath } from 'node:url';
 
 export const root = join(dirname(fileURLToPath(import.meta.url)), '../../..');
 const require = createRequire(join(root, 'build/web/package.json'));
+/** A package of the page's tests. */
+export const requirePackage = (name) => require(name);
 export const { chromium } = require('playwright-core');
 const axePath = require.resolve('axe-core/axe.min.js');
 

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <functional>
 
 #include "core/did_you_mean.h"
 #include "core/text.h"
@@ -108,8 +109,9 @@ OptionSpec row(const std::string& name, OptionType type, const std::string& rang
     return spec;
 }
 
+/// `member`: a pointer to a member of PictureOptions, or a function that returns one.
 template <typename Member>
-OptionSpec number(const std::string& name, Member PictureOptions::*member, double min, double max,
+OptionSpec number(const std::string& name, Member member, double min, double max,
                   const std::string& unit, const std::string& help,
                   const std::string& details = "") {
     const std::string range = rangeOf(shortNumber(min), "..", shortNumber(max), unit);
@@ -118,7 +120,7 @@ OptionSpec number(const std::string& name, Member PictureOptions::*member, doubl
     spec.min = min;
     spec.max = max;
     spec.apply = [=](PictureOptions& o, const std::string& value) {
-        o.*member = parseNumber(name, value, min, max, expected);
+        std::invoke(member, o) = parseNumber(name, value, min, max, expected);
     };
     return spec;
 }
@@ -232,12 +234,15 @@ std::vector<OptionSpec> makeSpecs() {
         vector("eye", &O::eye, "camera position, world units"),
         vector("target", &O::target, "point looked at, world units"),
         vector("up", &O::up, "direction that is up in the picture"),
-        number("azimuth", &O::azimuthDeg, -36000, 36000, "degrees",
-               "orbit about the target: longitude, 0 is from +Z"),
-        number("elevation", &O::elevationDeg, -90, 90, "degrees",
-               "orbit about the target: latitude, 90 is from above"),
-        number("distance", &O::distance, 1e-6, kFar, "",
-               "orbit about the target: distance, world units"),
+        number(
+            "azimuth", [](O & o) -> auto& { return o.orbit.azimuthDeg; }, -36000, 36000, "degrees",
+            "orbit about the target: longitude, 0 is from +Z"),
+        number(
+            "elevation", [](O & o) -> auto& { return o.orbit.elevationDeg; }, -90, 90, "degrees",
+            "orbit about the target: latitude, 90 is from above"),
+        number(
+            "distance", [](O & o) -> auto& { return o.orbit.distance; }, 1e-6, kFar, "",
+            "orbit about the target: distance, world units"),
         number("fov", &O::fovDeg, 0.01, 179, "degrees", "vertical field of view"),
         number("near", &O::near, 1e-6, kFar, "", "nearest distance drawn, world units"),
         number("far", &O::far, 1e-6, kFar, "",
@@ -287,6 +292,11 @@ std::vector<OptionSpec> makeSpecs() {
              "on draws see-through models after the others, the farthest first; exact sorts the "
              "surfaces in each pixel, so that models that pass through each other are right; off "
              "draws all opaque."),
+        word("shadows", &O::shadows, wordsOf(scene::kShadowsWords),
+             "of the models in the lights; default off",
+             "map draws hard shadows of opaque and cut-out models with shading phong, by maps of "
+             "the depths that each light sees. See-through models, lines and the surroundings "
+             "cast none."),
         number("scale", &O::scale, 0.1, 1, "", "of width and height, for fast frames; default 1"),
     };
 }

@@ -33,13 +33,19 @@ inline constexpr std::int64_t kMaxPixels = 16'777'216;  ///< of one picture
 
 inline constexpr double kDefaultErrorPx = 0.25;
 
+/// A camera's place about its target; unset values are the scene's.
+struct Orbit {
+    std::optional<double> azimuthDeg, elevationDeg, distance;
+    bool isSet() const { return azimuthDeg || elevationDeg || distance; }
+};
+
 /// The render options of the command line and of the service; unset ones take the scene's
 /// setting, else the default of optionSpecs().
 struct PictureOptions {
     std::optional<int> width, height;  ///< 1..4096 px, at most kMaxPixels
     CameraStart camera = CameraStart::scene;
     std::optional<glm::dvec3> eye, target, up;
-    std::optional<double> azimuthDeg, elevationDeg, distance;  ///< an orbit about target
+    Orbit orbit;  ///< about target, in place of eye
     std::optional<double> fovDeg, near, far;
     double timeS = 0.0;
     std::optional<scene::Shading> shading;
@@ -59,6 +65,7 @@ struct PictureOptions {
     std::optional<scene::Viewer> viewer;
     std::optional<scene::Specular> specular;
     std::optional<scene::Transparency> transparency;
+    std::optional<scene::Shadows> shadows;
     Missing missing = Missing::error;
     double scale = 1.0;  ///< of width and height, 0.1..1
 };

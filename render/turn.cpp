@@ -5,9 +5,7 @@
 namespace farol::render {
 
 void turnEye(PictureOptions& options, const scene::Camera& first, double angle) {
-    options.azimuthDeg.reset();
-    options.elevationDeg.reset();
-    options.distance.reset();
+    options.orbit = {};
     options.eye =
         first.target + glm::rotate(first.eye - first.target, angle, glm::normalize(first.up));
     options.target = first.target;

@@ -202,6 +202,9 @@ inline constexpr EnumWords<Specular, Specular::separate> kSpecularWords{"single"
 enum class Transparency { off, on, exact };
 inline constexpr EnumWords<Transparency, Transparency::exact> kTransparencyWords{"off", "on",
                                                                                  "exact"};
+/// Shadows of the models in the lights: none, or by depth maps.
+enum class Shadows { off, map };
+inline constexpr EnumWords<Shadows, Shadows::map> kShadowsWords{"off", "map"};
 
 struct Background {
     std::optional<glm::vec3> color;
@@ -222,6 +225,7 @@ struct RenderSettings {
     std::optional<Viewer> viewer;
     std::optional<Specular> specular;
     std::optional<Transparency> transparency;
+    std::optional<Shadows> shadows;
     std::optional<glm::dvec2> timeRangeS;  ///< begin < end: span of an animation or turntable
     bool operator==(const RenderSettings&) const = default;
 };

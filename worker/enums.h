@@ -19,6 +19,7 @@ constexpr Filter lastOf(Filter) { return Filter::anisotropic; }
 constexpr Viewer lastOf(Viewer) { return Viewer::local; }
 constexpr Specular lastOf(Specular) { return Specular::separate; }
 constexpr Transparency lastOf(Transparency) { return Transparency::exact; }
+constexpr Shadows lastOf(Shadows) { return Shadows::map; }
 }  // namespace farol::scene
 
 namespace farol::image {

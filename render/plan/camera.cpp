@@ -79,18 +79,18 @@ scene::Camera chooseCamera(const scene::Scene& scene, const PictureOptions& opti
     if (options.near) camera.near = *options.near;
     if (options.far) camera.far = *options.far;
     if (options.eye) {
-        if (options.azimuthDeg || options.elevationDeg || options.distance)
-            fail(message<"option.camera/orbit">(), "eye");
+        if (options.orbit.isSet()) fail(message<"option.camera/orbit">(), "eye");
         camera.eye = *options.eye;
-    } else if (options.azimuthDeg || options.elevationDeg || options.distance) {
+    } else if (options.orbit.isSet()) {
         // Values that are not given are those of the scene's camera.
         const glm::dvec3 arm = camera.eye - camera.target;
         const double length = glm::length(arm);
-        const double distance = options.distance.value_or(length);
-        const double azimuth =
-            options.azimuthDeg ? glm::radians(*options.azimuthDeg) : std::atan2(arm.x, arm.z);
-        const double elevation = options.elevationDeg ? glm::radians(*options.elevationDeg)
-                                                      : std::atan2(arm.y, std::hypot(arm.x, arm.z));
+        const double distance = options.orbit.distance.value_or(length);
+        const double azimuth = options.orbit.azimuthDeg ? glm::radians(*options.orbit.azimuthDeg)
+                                                        : std::atan2(arm.x, arm.z);
+        const double elevation = options.orbit.elevationDeg
+                                     ? glm::radians(*options.orbit.elevationDeg)
+                                     : std::atan2(arm.y, std::hypot(arm.x, arm.z));
         camera.eye = camera.target + distance * glm::dvec3(std::cos(elevation) * std::sin(azimuth),
                                                            std::sin(elevation),
                                                            std::cos(elevation) * std::cos(azimuth));

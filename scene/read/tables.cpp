@@ -262,6 +262,7 @@ constexpr AttributeSpec kRender[] = {
     word("specular", "", "single separate", "single", "`separate`: added after texturing"),
     word("transparency", "", "off on exact", "on",
          "of textures and materials that are not opaque; see below"),
+    word("shadows", "", "off map", "off", "of the models in the lights; see below"),
     text("time", "", "", "range of an animation, seconds: `0..10`"),
 };
 

@@ -124,6 +124,7 @@ class SceneWriter {
         if (settings.specular) out_.text("specular", kSpecularWords[*settings.specular]);
         if (settings.transparency)
             out_.text("transparency", kTransparencyWords[*settings.transparency]);
+        if (settings.shadows) out_.text("shadows", kShadowsWords[*settings.shadows]);
         if (settings.timeRangeS)
             out_.text("time", formatNumber(settings.timeRangeS->x) + " " +
                                   formatNumber(settings.timeRangeS->y));

@@ -409,10 +409,10 @@ TEST_CASE("half the error never makes a coarser mesh, and an orbit meets few mes
         // About the object itself: an orbit about another point comes nearer and goes away.
         const auto& group = view.scene.groups[0];
         view.scene.camera->target = std::get<scene::Translate>(group.transforms[0]).offset;
-        view.options.distance = 20.0 * view.scene.camera->near * 4.0;
+        view.options.orbit.distance = 20.0 * view.scene.camera->near * 4.0;
         for (int angle = 0; angle < 360; angle += 5) {
-            view.options.azimuthDeg = angle;
-            view.options.elevationDeg = 20.0;
+            view.options.orbit.azimuthDeg = angle;
+            view.options.orbit.elevationDeg = 20.0;
             const render::FramePlan plan =
                 support::planScene(view.scene, view.options, assets, meshes);
             for (const render::DrawItem& item : plan.items) met.insert(item.mesh->id);

@@ -18,8 +18,8 @@ void checkOptions(const render::PictureOptions& options) {
         require(!side || (*side >= 1 && *side <= render::kMaxSide), "a side out of range");
     for (const auto& vector : {options.eye, options.target, options.up})
         for (int i = 0; vector && i < 3; ++i) checkNumber((*vector)[i]);
-    for (const auto& number : {options.azimuthDeg, options.elevationDeg, options.distance,
-                               options.fovDeg, options.near, options.far})
+    for (const auto& number : {options.orbit.azimuthDeg, options.orbit.elevationDeg,
+                               options.orbit.distance, options.fovDeg, options.near, options.far})
         if (number) checkNumber(*number);
     require(!options.fovDeg || (*options.fovDeg > 0 && *options.fovDeg < 180), "no field of view");
     checkNumber(options.timeS);

@@ -54,7 +54,7 @@ class Watcher {
         job.options.height = 120;
         job.options.samples = 1;
         job.options.timeS = time;
-        if (azimuth != 0.0) job.options.azimuthDeg = azimuth;
+        if (azimuth != 0.0) job.options.orbit.azimuthDeg = azimuth;
         image::Image image;
         renderer_.draw(job, image);
         return image;

@@ -54,19 +54,19 @@ TEST_CASE("the view rotation is orthonormal and looks along -Z, also straight up
 TEST_CASE("azimuth and elevation orbit about the target, what is left out stays") {
     const scene::Scene scene = sceneWith({0, 0, 10}, {0, 0, 0});
     PictureOptions options;
-    options.azimuthDeg = 90.0;
+    options.orbit.azimuthDeg = 90.0;
     scene::Camera camera = render::chooseCamera(scene, options, Box{}, 1.0);
     CHECK(camera.eye.x == Approx(10.0));
     CHECK(camera.eye.z == Approx(0.0).margin(1e-9));
-    options.elevationDeg = 30.0;
-    options.distance = 4.0;
+    options.orbit.elevationDeg = 30.0;
+    options.orbit.distance = 4.0;
     camera = render::chooseCamera(scene, options, Box{}, 1.0);
     CHECK(camera.eye.y == Approx(2.0));
     CHECK(glm::length(camera.eye) == Approx(4.0));
     // The same numbers read off a camera give the camera back.
     const scene::Scene oblique = sceneWith({3, 4, 5}, {1, 1, 1});
     PictureOptions same;
-    same.distance = glm::length(glm::dvec3(2, 3, 4));
+    same.orbit.distance = glm::length(glm::dvec3(2, 3, 4));
     camera = render::chooseCamera(oblique, same, Box{}, 1.0);
     CHECK(glm::length(camera.eye - glm::dvec3(3, 4, 5)) < 1e-12);
 }
@@ -162,7 +162,7 @@ TEST_CASE("a scene without camera is framed, and orbited on demand; engine is th
     CHECK(glm::length(framed.eye) > 1.8);
     CHECK(render::noteCameraStart(scene, options)->message.find("frames all models") !=
           std::string::npos);
-    options.azimuthDeg = 180.0;
+    options.orbit.azimuthDeg = 180.0;
     CHECK(render::chooseCamera(scene, options, bounds, 1.0).eye.z ==
           Approx(-std::hypot(framed.eye.x, framed.eye.z)));
     options = {};

@@ -26,7 +26,7 @@ lines</description>
   <camera><position x="1.1" y="2.2" z="1e-7"/><lookAt x="0.1"/><up x="0.3" y="1"/>
     <projection fov="33.3" near="0.1" far="12345.678"/></camera>
   <render shading="gouraud" aa="8" axes="true" viewer="local" specular="separate"
-    transparency="exact" time="1..7.5"/>
+    transparency="exact" shadows="map" time="1..7.5"/>
   <background texture="b.jpg" color="12,34,56"/><skybox texture="s.jpg" width="123.4"/>
   <entity file="ship.xml"/>
   <colors><color name="warm" r="0.9" g="0.6" b="0.3"/></colors>
@@ -126,6 +126,7 @@ TEST_CASE("equality sees every field") {
         [](Scene& s) { s.globalAmbient.r = 0; },
         [](Scene& s) { s.settings.samples = 2; },
         [](Scene& s) { s.settings.transparency = Transparency::off; },
+        [](Scene& s) { s.settings.shadows = Shadows::off; },
         [](Scene& s) { s.background.color->r = 0; },
         [](Scene& s) { s.skybox->width = 1; },
         [](Scene& s) { s.entity.reset(); },

@@ -14,6 +14,7 @@
 #include "render/plan/chess_board.h"
 #include "render/plan/messages.h"
 #include "render/plan/plan.h"
+#include "render/plan/shading.h"
 #include "scene/animation.h"
 
 namespace farol::interchange {

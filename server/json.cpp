@@ -79,6 +79,8 @@ json toJson(const render::Stats& stats) {
             {"peeledLayers", stats.peeledLayers},
             {"occluders", stats.occluders},
             {"overdraw", stats.overdraw},
+            {"shadowMaps", stats.shadowMaps},
+            {"shadowTriangles", stats.shadowTriangles},
             {"lightsSkipped", stats.lightsSkipped}};
 }
 

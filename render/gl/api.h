@@ -46,6 +46,7 @@ namespace farol::render::gl {
     X(EndQuery, PFNGLENDQUERYPROC)                                                   \
     X(Finish, PFNGLFINISHPROC)                                                       \
     X(FramebufferTexture2D, PFNGLFRAMEBUFFERTEXTURE2DPROC)                           \
+    X(FramebufferTextureLayer, PFNGLFRAMEBUFFERTEXTURELAYERPROC)                     \
     X(FrontFace, PFNGLFRONTFACEPROC)                                                 \
     X(GenBuffers, PFNGLGENBUFFERSPROC)                                               \
     X(GenFramebuffers, PFNGLGENFRAMEBUFFERSPROC)                                     \
@@ -76,6 +77,7 @@ namespace farol::render::gl {
     X(TexImage2D, PFNGLTEXIMAGE2DPROC)                                               \
     X(TexImage2DMultisample, PFNGLTEXIMAGE2DMULTISAMPLEPROC)                         \
     X(TexStorage2D, PFNGLTEXSTORAGE2DPROC)                                           \
+    X(TexStorage3D, PFNGLTEXSTORAGE3DPROC)                                           \
     X(TexSubImage2D, PFNGLTEXSUBIMAGE2DPROC)                                         \
     X(TexParameterf, PFNGLTEXPARAMETERFPROC)                                         \
     X(TexParameteri, PFNGLTEXPARAMETERIPROC)                                         \

@@ -102,6 +102,8 @@ void Painter::State::setMaterial(const FramePlan& plan, const DrawItem& item,
     api.Uniform3fv(program.materialSpecular, 1, glm::value_ptr(item.specular));
     api.Uniform1f(program.materialShininess, item.shininess);
     if (program.opacity >= 0) api.Uniform1f(program.opacity, item.opacity);
+    if (program.shadowOffset >= 0)
+        api.Uniform2fv(program.shadowOffset, 1, glm::value_ptr(item.shadowOffset));
     if (program.uvFrom >= 0) api.Uniform4fv(program.uvFrom, 1, glm::value_ptr(item.uvFrom));
     if (program.mappedFrom >= 0) {
         const glm::vec3 origin(item.mesh->mesh.origin());

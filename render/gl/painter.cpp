@@ -67,6 +67,7 @@ Painter::Painter(std::unique_ptr<Context> context)
     : state_(std::make_unique<State>(std::move(context))) {}
 Painter::~Painter() = default;
 const GlFacts& Painter::facts() const { return state_->facts; }
+int Painter::shadowMapsDrawn() const { return state_->shadowMapsDrawn; }
 
 void Painter::State::prepareTextures(const FramePlan& plan, const OpenTexture& open) {
     textureNames.assign(plan.textures.size(), 0);
@@ -153,6 +154,7 @@ void Painter::State::prepare(FramePlan& plan, const OpenTexture& open) {
                        static_cast<GLsizeiptr>(plan.lightSets[i].size() * sizeof(EyeLight)),
                        plan.lightSets[i].data(), GL_STREAM_DRAW);
     }
+    if (!plan.shadowMaps.empty()) shadows.bind(plan);
     prepareTextures(plan, open);
     const bool allOpaque =
         std::all_of(textureAlphas.begin(), textureAlphas.end(),
@@ -207,6 +209,23 @@ glm::ivec4 Painter::State::viewportOf(const FramePlan& plan, const Pass& pass) c
     const int scale = pass.target.scale;
     const int below = plan.view.size.y - pass.target.firstRow - pass.target.rows;
     return {0, -below * scale, plan.view.size.x * scale, plan.view.size.y * scale};
+}
+
+/// The maps that are not as in the frame before.
+void Painter::State::drawShadowMaps(const FramePlan& plan) {
+    const int before = shadowMapsDrawn;
+    for (std::size_t i = 0; i < plan.shadowMaps.size(); ++i) {
+        if (shadows.has(plan, i)) continue;
+        const FramePlan& frame = *plan.shadowMaps[i].frame;
+        preparePlaces(frame);
+        shadows.begin(i);
+        int calls = 0;  // not those of the image
+        const Pass& pass = frame.passes[0];
+        for (const PassItem& item : pass.items) drawModels(frame, pass, item, calls);
+        shadows.keep(plan, i);
+        ++shadowMapsDrawn;
+    }
+    if (shadowMapsDrawn > before) preparePlaces(plan);  // over those of the maps
 }
 
 void Painter::State::drawPass(const FramePlan& plan, const Pass& pass, int& drawCalls) {
@@ -265,6 +284,7 @@ void Painter::draw(FramePlan& plan, const OpenTexture& open, image::Image& image
     s.context->makeCurrent();
     s.restoreState();
     s.prepare(plan, open);
+    s.drawShadowMaps(plan);
     throwOnError(s.api, "preparing");
     for (std::size_t i = 0; i < plan.textures.size(); ++i)
         for (const TextureNote& note : s.textureNotes[i])

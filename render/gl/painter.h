@@ -29,6 +29,8 @@ class Painter {
               Diagnostics& findings);
 
     const GlFacts& facts() const;
+    /// Since it was made: maps that are as in the frame before are not drawn again.
+    int shadowMapsDrawn() const;
 
   private:
     struct State;

@@ -9,6 +9,7 @@
 #include "render/gl/painter.h"
 #include "render/gl/peeler.h"
 #include "render/gl/program.h"
+#include "render/gl/shadow_store.h"
 #include "render/gl/target.h"
 #include "render/gl/texture_store.h"
 
@@ -32,6 +33,8 @@ struct Painter::State {
     TextureStore textures{api, facts, kTextureBytes};
     std::optional<Target> target;
     std::optional<Peeler> peeler;
+    ShadowStore shadows{api};
+    int shadowMapsDrawn = 0;
     int peeledLayers = 0;  ///< of the frame, in the pass with most
     bool leftLayersOut = false;
     BoxMean mean;
@@ -54,6 +57,7 @@ struct Painter::State {
     void preparePlaces(const FramePlan& plan);
     void begin(const FramePlan& plan, const Pass& pass);
     void read(const FramePlan& plan, std::size_t pass, image::Image& image);
+    void drawShadowMaps(const FramePlan& plan);
     void drawPass(const FramePlan& plan, const Pass& pass, int& drawCalls);
     void drawModels(const FramePlan& plan, const Pass& pass, const PassItem& models,
                     int& drawCalls);

@@ -37,6 +37,7 @@ constexpr std::array<FeatureName, kFeatures> kNames{{
     {Feature::specular, "SPECULAR"},
     {Feature::localViewer, "LOCAL_VIEWER"},
     {Feature::separateSpecular, "SEPARATE_SPECULAR"},
+    {Feature::shadowed, "SHADOWED"},
     {Feature::markNotFinite, "MARK_NOT_FINITE"},
     {Feature::textured, "TEXTURED"},
     {Feature::filterMipmap, "FILTER_MIPMAP"},
@@ -105,7 +106,8 @@ class Shader {
             name.starts_with("model") ? shaderText("common.glsl") : std::string_view{};
         std::string parts;
         if (name == "model.frag")
-            parts.append(shaderText("texture.glsl"))
+            parts.append(shaderText("shadow.glsl"))
+                .append(shaderText("texture.glsl"))
                 .append(shaderText("surface.glsl"))
                 .append(surfaceKind);
         const std::string text = head + std::string(common) + parts + std::string(shaderText(name));
@@ -138,7 +140,8 @@ const LinkedProgram& ProgramCache::get(const ProgramKey& key) {
     const std::string name = stem(key.shaders), defines = definesOf(key);
     // The block's binding stands in the text, so that no call is needed to set it.
     const Shader vertex(api_, GL_VERTEX_SHADER, name + ".vert", defines, {});
-    const Shader fragment(api_, GL_FRAGMENT_SHADER, name + ".frag", defines, key.surfaceKind);
+    const Shader fragment(api_, GL_FRAGMENT_SHADER, name + ".frag", "#define FRAGMENT\n" + defines,
+                          key.surfaceKind);
     LinkedProgram linked;
     linked.program = Program(api_);
     const GLuint program = linked.program.name();
@@ -181,6 +184,7 @@ const LinkedProgram& ProgramCache::get(const ProgramKey& key) {
     linked.samplesAcross = at("samplesAcross");
     linked.opacity = at("opacity");
     linked.samplePlaces = at("samplePlaces");
+    linked.shadowOffset = at("shadowOffset");
     return programs_.emplace(key, std::move(linked)).first->second;
 }
 

@@ -31,7 +31,7 @@ struct LinkedProgram {
         seenFrom;
     GLint lightCount, plainColor, planeS, planeT, uvFrom, mappedFrom, nearest, tangents,
         samplesAcross;
-    GLint opacity, samplePlaces;
+    GLint opacity, samplePlaces, shadowOffset;
 };
 
 /// Programs by key, compiled once. Throws std::runtime_error with the compiler's log: a shader
@@ -46,11 +46,12 @@ class ProgramCache {
     std::map<ProgramKey, LinkedProgram> programs_;
 };
 
-/// Binding of the Lights uniform block.
-inline constexpr GLuint kLightsBinding = 0;
+/// Bindings of the uniform blocks Lights and ShadowMaps.
+inline constexpr GLuint kLightsBinding = 0, kShadowMapsBinding = 1;
 
-/// Texture units: pictures, and in peeled layers the depths of opaque surfaces and of the layer
-/// before.
-inline constexpr GLenum kPictureUnit = 0, kOpaqueDepthUnit = 1, kLayerDepthUnit = 2;
+/// Texture units: pictures; in peeled layers the depths of opaque surfaces and of the layer before;
+/// shadow maps.
+inline constexpr GLenum kPictureUnit = 0, kOpaqueDepthUnit = 1, kLayerDepthUnit = 2,
+                        kShadowUnit = 3;
 
 }  // namespace farol::render::gl

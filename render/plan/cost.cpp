@@ -25,6 +25,8 @@ constexpr double kTriangleCost = 0.25e-6, kLineCost = 1.5e-6;  // of a pass
 constexpr double kCallCost = 15e-6;                            // of a pass
 // A pass of depths alone, measured against frames without it.
 constexpr double kDepthCallCost = 5e-6, kDepthTriangleCost = 0.15e-6, kDepthFragmentCost = 1.5e-9;
+// Of shadow maps: clearing and filling a texel, and looking one light's up for a fragment.
+constexpr double kShadowTexelCost = 4e-9, kShadowLookupCost = 80e-9;
 constexpr double kLineWidth = 4.0;  // px that a line's fragments are counted as
 
 /// How many layers of triangles a mesh has before each other, about: 1 for closed shapes.
@@ -90,8 +92,8 @@ std::string rounded(double coreSeconds) {
 double fragmentCost(const FramePlan& plan, const DrawItem& item) {
     double cost = kFragmentCost;
     if (static_cast<std::size_t>(item.lightSet) < plan.lightSets.size())
-        cost += kLightCost *
-                static_cast<double>(plan.lightSets[static_cast<std::size_t>(item.lightSet)].size());
+        for (const EyeLight& light : plan.lightSets[static_cast<std::size_t>(item.lightSet)])
+            cost += kLightCost + (light.diffuse.w > 0.0F ? kShadowLookupCost : 0.0);
     if (item.surface) cost += kSurfaceCost;
     if (item.texture >= 0)
         cost += plan.textures[static_cast<std::size_t>(item.texture)].filter ==
@@ -139,6 +141,11 @@ FrameCost estimateCost(const FramePlan& plan) {
         }
         cost.fragments += share.shadings * area * fragmentCost(plan, item);
     }
+    const auto maps = static_cast<double>(plan.shadowMaps.size());
+    cost.pixels += maps * kShadowTexelCost * plan.shadowSide * plan.shadowSide;
+    cost.geometry += static_cast<double>(plan.stats.shadowTriangles) * kDepthTriangleCost;
+    for (const ShadowMap& map : plan.shadowMaps)
+        cost.geometry += static_cast<double>(map.casters.size()) * kDepthCallCost;
     return cost;
 }
 

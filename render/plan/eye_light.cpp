@@ -32,9 +32,9 @@ EyeLight eyeLight(const PlacedLight& placed, const ViewTransform& view, double t
     eye.spot =
         glm::vec4(unit, cone ? static_cast<float>(std::cos(glm::radians(light.cutoffDeg))) : -2.0F);
     eye.attenuation = glm::vec4(light.constant, light.linear, light.quadratic, light.exponent);
-    eye.diffuse = glm::vec4(scene::colorAt(light.diffuse, timeS), 1.0F);
-    eye.ambient = glm::vec4(scene::colorAt(light.ambient, timeS), 1.0F);
-    eye.specular = glm::vec4(scene::colorAt(light.specular, timeS), 1.0F);
+    eye.diffuse = glm::vec4(scene::colorAt(light.diffuse, timeS), 0.0F);
+    eye.ambient = glm::vec4(scene::colorAt(light.ambient, timeS), 0.0F);
+    eye.specular = glm::vec4(scene::colorAt(light.specular, timeS), 0.0F);
     return eye;
 }
 

@@ -23,6 +23,7 @@ enum class Feature : std::uint8_t {
     specular,
     localViewer,
     separateSpecular,
+    shadowed,  ///< lights have shadow maps
     markNotFinite,
     // Texture.
     textured,

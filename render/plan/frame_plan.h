@@ -15,6 +15,7 @@
 #include "render/plan/features.h"
 #include "render/plan/mesh_library.h"
 #include "render/plan/report.h"
+#include "render/plan/shadow_maps.h"
 #include "render/plan/texture_ref.h"
 #include "scene/scene.h"
 
@@ -32,9 +33,12 @@ struct DrawItem {
     glm::vec3 unitFromObject{1.0F};  ///< scale from the mesh to the surface's units
     glm::vec3 surfaceEye{0.0F};      ///< the viewer in the surface's units
     bool isOnSurface = false;        ///< its vertices are; pixels need no step to it
-    bool hasExactDepth = false;      ///< pixels have the surface's depth, not the mesh's
-    bool inside = false;             ///< the insides are drawn
-    bool mirrored = false;           ///< determinant < 0: front faces are clockwise
+    /// How far the drawn surface may be beside the one that its light is worked out for: texels of
+    /// a shadow map, and share of the distance.
+    glm::vec2 shadowOffset{0.0F};
+    bool hasExactDepth = false;  ///< pixels have the surface's depth, not the mesh's
+    bool inside = false;         ///< the insides are drawn
+    bool mirrored = false;       ///< determinant < 0: front faces are clockwise
     glm::vec3 diffuse{0.0F}, ambient{0.0F}, specular{0.0F}, emissive{0.0F};
     float shininess = 0.0F;
     float opacity = 1.0F;
@@ -128,6 +132,7 @@ struct FrameStyle {
     Layer layer = Layer::color;
     int samples = 1;  ///< lower bound
     scene::Shading shading = scene::Shading::phong;
+    bool hasShadows = false;
     bool lit = true;  ///< false: materials show as their plain diffuse colour
     scene::Viewer viewer = scene::Viewer::infinite;
     scene::Specular specular = scene::Specular::single;
@@ -139,6 +144,19 @@ struct FrameStyle {
     int backgroundTexture = -1, skyboxTexture = -1;  ///< indices into FramePlan::textures
 };
 
+struct FramePlan;
+
+/// The depths of what a light sees.
+struct ShadowMap {
+    EyeShadowMap eye;      ///< for those who look it up
+    glm::dmat4 clip{1.0};  ///< clipFromLight
+    std::vector<DrawItem>
+        casters;  ///< in light space; drawn by their mesh, texture and place alone
+    /// The frame that the light sees: the casters that are not seen through, made by composePasses.
+    /// Its textures are indices into those of the plan that the map belongs to.
+    std::shared_ptr<const FramePlan> frame;
+};
+
 struct FramePlan {
     ViewTransform view;
     std::vector<Pass> passes;  ///< in their order
@@ -147,6 +165,8 @@ struct FramePlan {
     Batches batches;  ///< of the items
     std::vector<LineVertex> lines;
     std::vector<std::vector<EyeLight>> lightSets;  ///< all empty where nothing is lit
+    std::vector<ShadowMap> shadowMaps;             ///< lights refer to them
+    int shadowSide = 0;                            ///< of each of them, texels
     glm::vec3 globalAmbient{1.0F};
     std::vector<TextureRef> textures;
     std::vector<image::Alpha> textureAlphas;  ///< of textures, once they are decoded; else empty

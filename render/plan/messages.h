@@ -45,6 +45,10 @@ inline constexpr MessageRow kRenderMessages[] = {
     {"limit.pixels/side",
      "the image is {width} x {height} px; expected at most {most} px a side",
      {"9000", "16", "4096"}},
+    {"limit.shadows",
+     "{count} lights cast no shadow: an image has at most {max} shadow maps, and a light that "
+     "shines to all sides needs up to 6; use fewer lights",
+     {"2", "64"}},
     {"option.camera/far", "far is {far}; expected more than near, {near}", {"1", "2"}},
     {"option.camera/orbit",
      "both eye and an orbit are given; expected either eye, or azimuth, elevation and distance"},
@@ -145,6 +149,11 @@ inline constexpr MessageRow kRenderMessages[] = {
      "the camera is so close to the surface of this model that its outline may be {error} px off, "
      "with {most} divisions of a turn; move the camera away, or use a smaller model",
      {"12", "1024"}},
+    {"scene.shadows",
+     "shadows=\"map\" has no effect with shading \"{shading}\", whose pixels are not lit; use "
+     "shading=\"phong\"",
+     {"gouraud"}},
+    {"scene.shadows/unlit", "shadows=\"map\" has no effect without lights; add a light"},
 };
 
 /// A message of this floor: message<"scene.light-inside">("line"_arg = line).

@@ -96,6 +96,7 @@ FeatureSet shadingFeatures(const FrameStyle& style) {
     FeatureSet features{Feature::lightCount};
     if (style.shading == scene::Shading::chess) features.add(Feature::chess);
     if (style.marksNotFinite) features.add(Feature::markNotFinite);
+    if (style.hasShadows) features.add(Feature::shadowed);
     if (!style.lit)
         features.add(Feature::unlit);
     else if (style.shading == scene::Shading::flat)
@@ -177,9 +178,37 @@ Pass depthPassOf(const Pass& pass, const std::vector<PassItem>& occluders) {
     return depths;
 }
 
+/// The frame that a light sees: what is not seen through, cut out by its texture.
+void composeShadowMap(const FramePlan& plan, ShadowMap& map) {
+    auto frame = std::make_shared<FramePlan>();
+    for (const DrawItem& caster : map.casters) {
+        DrawItem item = caster;
+        if (item.texture >= 0 && !plan.textureAlphas.empty())
+            item.alpha = plan.textureAlphas[static_cast<std::size_t>(item.texture)];
+        if (item.alpha == image::Alpha::blended) continue;
+        if (item.alpha == image::Alpha::opaque) item.texture = -1;
+        frame->items.push_back(std::move(item));
+    }
+    frame->batches = batchesOf(frame->items, plan.view, plan.style.mergesCalls, 0);
+    for (Batch& batch : frame->batches.batches) {
+        const DrawItem& first = frame->items[frame->batches.order[batch.first]];
+        if (first.texture < 0) continue;
+        batch.features = textureFeatures(
+            plan.textures[static_cast<std::size_t>(first.texture)].filter, first.mapping);
+        batch.features.add(Feature::alphaTest);
+    }
+    Pass& pass = frame->passes.emplace_back();
+    pass.target.output = PassOutput::none;
+    pass.clip = map.clip;
+    pass.features = {Feature::lightCount, Feature::unlit};
+    pass.items.push_back({PassItem::Kind::models, 0, frame->batches.batches.size(), -1});
+    map.frame = std::move(frame);
+}
+
 }  // namespace
 
 void composePasses(FramePlan& plan, const GlFacts& gl) {
+    for (ShadowMap& map : plan.shadowMaps) composeShadowMap(plan, map);
     const FrameStyle& style = plan.style;
     const bool ids = style.layer == Layer::id;
     // Each model has another id colour: no two are alike.

@@ -16,6 +16,8 @@
 #include "render/plan/passes.h"
 #include "render/plan/quality.h"
 #include "render/plan/sampling.h"
+#include "render/plan/shading.h"
+#include "render/plan/shadow_casters.h"
 #include "render/plan/transparency.h"
 #include "scene/animation.h"
 
@@ -25,23 +27,6 @@ namespace {
 constexpr int kDefaultSide = 512;
 // Half the diagonal of a sheared box is at most sqrt(3) times the root of its squared edges.
 constexpr double kShear = 1.7320508075688774;
-
-bool anyModel(const std::vector<scene::Group>& groups, bool (*test)(const scene::Model&)) {
-    return std::any_of(groups.begin(), groups.end(), [&](const scene::Group& group) {
-        return std::any_of(group.models.begin(), group.models.end(), test) ||
-               anyModel(group.groups, test);
-    });
-}
-
-/// The automatic choice: without lights, colours and textures the wireframe of the first phases;
-/// without lights unlit; else lit per pixel.
-scene::Shading automaticShading(const scene::Scene& scene, const InstanceList& list) {
-    if (!list.lights.empty()) return scene::Shading::phong;
-    const bool dressed = list.dressed || anyModel(scene.groups, [](const scene::Model& model) {
-                             return model.material.has_value() || model.texture.has_value();
-                         });
-    return dressed ? scene::Shading::solid : scene::Shading::wireframe;
-}
 
 [[noreturn]] void failSize(const glm::ivec2& size, int maxSide) {
     throw Error(message<"limit.pixels/side">("width"_arg = size.x, "height"_arg = size.y,
@@ -77,8 +62,12 @@ class Planner {
         const Sampling sampling = chooseSampling(style_.samples, gl_, std::max(size.x, size.y));
         samples_ = samplePattern(sampling, gl_);
         snapPx_ = gl_.snapPx / sampling.scale;
-        plan_.findings = list.findings;
+        plan_.findings.insert(plan_.findings.begin(), list.findings.begin(), list.findings.end());
+        if (style_.hasShadows)
+            shadows_ =
+                planShadows(list, plan_.view, options_.timeS, seesThrough(), gl_, plan_.findings);
         addInstances(scene_, list, plan_.view, {});
+        if (style_.hasShadows) addShadows(list);
         if (placed_.entity) addEntity();
         if (isOverBudget()) {
             next.coarsening *= 4.0;
@@ -122,8 +111,19 @@ class Planner {
             options_.specular.value_or(scene_.settings.specular.value_or(scene::Specular::single));
         style_.transparency = options_.transparency.value_or(
             scene_.settings.transparency.value_or(scene::Transparency::on));
+        style_.hasShadows = hasShadows(scene_, options_, style_, list, plan_.findings);
         plan_.globalAmbient = scene_.globalAmbient;
     }
+
+    /// Of the scene; the entity before the camera casts none.
+    void addShadows(const InstanceList& list) {
+        addShadowMaps(plan_, shadows_,
+                      {list, assets_, meshes_,
+                       [&](std::size_t texture) { return textureIndex(list, texture); },
+                       crowd_.coarsening, seesThrough()});
+    }
+
+    bool seesThrough() const { return style_.transparency != scene::Transparency::off; }
 
     /// `inherited`: lights of set 0 for a list that has none.
     void addInstances(const scene::Scene& scene, const InstanceList& list,
@@ -172,6 +172,7 @@ class Planner {
         std::vector<EyeLight> lights;
         for (const PlacedLight& one : list.lights)
             lights.push_back(eyeLight(one, view, options_.timeS));
+        if (&list == &placed_.scene) shadows_.mark(lights);
         for (const std::vector<int>& set : list.lightSets) {
             std::vector<EyeLight>& chosen = plan_.lightSets.emplace_back();
             if (!style_.lit) continue;
@@ -268,6 +269,9 @@ class Planner {
         if (largest > 0.0)
             item.normalFromObject = glm::mat3(cofactor * ((det < 0.0 ? -1.0 : 1.0) / largest));
         item.mirrored = det < 0.0;
+        // Pixels that follow their rays, or not, and maps with meshes of another fineness.
+        if (style_.hasShadows && instance.open && !isFlat(instance.mesh->bounds))
+            item.shadowOffset = glm::vec2(1.0, errorPx_ * view.pixelAngle);
         item.isBody = !model.twoSided && !model.source.isSheet && !isFlat(instance.mesh->bounds);
         fillMaterial(item, instance, list, undressed);
         item.indices = item.mesh->mesh.indices().size();
@@ -448,6 +452,7 @@ class Planner {
     double errorPx_ = options_.errorPx.value_or(kDefaultErrorPx);
     SamplePattern samples_;
     double snapPx_ = 0.0;  ///< of the image
+    PlannedShadows shadows_;
     ReachedLights reached_{plan_.lightSets};
     int ignoredOpacities_ = 0;        ///< of models drawn opaque
     std::int64_t openTriangles_ = 0;  ///< of open shapes in view
@@ -459,18 +464,6 @@ class Planner {
 };
 
 }  // namespace
-
-scene::Shading chooseShading(const scene::Scene& scene, const PictureOptions& options,
-                             const InstanceList& list) {
-    if (options.shading) return *options.shading;
-    return scene.settings.shading ? *scene.settings.shading : automaticShading(scene, list);
-}
-
-bool isLit(scene::Shading shading, const InstanceList& list) {
-    const bool isSurface = shading == scene::Shading::flat || shading == scene::Shading::gouraud ||
-                           shading == scene::Shading::phong;
-    return isSurface && !list.lights.empty();
-}
 
 glm::ivec2 pictureSize(const scene::Scene& scene, const PictureOptions& options) {
     const scene::Window window = scene.window.value_or(scene::Window{kDefaultSide, kDefaultSide});

@@ -18,14 +18,6 @@ glm::ivec2 pictureSize(const scene::Scene& scene, const PictureOptions& options)
 /// Where the third-person camera holds its entity: in front of the eye, in eye space.
 inline constexpr glm::dvec3 kEntityPlace{0.0, 0.0, -3.0};
 
-/// Returns the shading of a render: the request's, the scene's, else the automatic one: without
-/// lights, colours and textures wireframe; without lights unlit; else lit per pixel.
-scene::Shading chooseShading(const scene::Scene& scene, const PictureOptions& options,
-                             const InstanceList& list);
-
-/// True where lights light the models.
-bool isLit(scene::Shading shading, const InstanceList& list);
-
 /// Parts of a frame that are skipped because they cannot be seen. All on but in tests, which show
 /// that the image is the same without.
 struct Skipping {

@@ -28,6 +28,24 @@ const SampleCost& costOf(int samples) {
     return found == kCosts.end() ? kCosts.back() : *found;
 }
 
+// Of shadows, like the figures of the front but for two scenes alone
+// (docs/benchmarks/rendering.md): looking a light up for each shading of a pixel, and drawing a
+// map.
+constexpr double kShadowMsPerMegapixel = 32.0, kShadowMsPerMap = 2.0;
+
+/// How often a pixel is shaded, about: samples share their shading up to 4.
+double shadingsOf(int samples) {
+    return samples >= 16 ? 16.0 : samples >= 8 ? 9.0 : samples >= 2 ? 2.0 : 1.0;
+}
+
+void countShadows(const InstanceList& list, FrameLoad& load) {
+    for (const PlacedLight& one : list.lights) {
+        load.shadowLights += 1.0;
+        // A point light seldom needs all sides of its cube.
+        load.shadowMaps += one.light->type == scene::LightType::point ? 4.0 : 1.0;
+    }
+}
+
 void count(const InstanceList& list, FrameLoad& load) {
     for (const Instance& one : list.instances)
         if (one.open)
@@ -45,7 +63,8 @@ double expectedMs(const FrameLoad& load, int samples, double errorPx) {
     const double triangles = load.writtenTriangles + kTrianglesOpen *
                                                          std::sqrt(load.pixels * load.openModels) /
                                                          errorOf(errorPx, samples);
-    return kFixedMs +
+    return kFixedMs + kShadowMsPerMap * load.shadowMaps +
+           1e-6 * load.pixels * load.shadowLights * kShadowMsPerMegapixel * shadingsOf(samples) +
            1e-6 * load.pixels * cost.msPerMegapixel *
                (1.0 + kPerLight * std::max(0.0, load.lights - 1.0)) +
            1e-6 * triangles * cost.msPerMegatriangle;
@@ -78,6 +97,9 @@ std::optional<Quality> resolveBudget(PictureOptions& options, const scene::Scene
     load.pixels = static_cast<double>(size.x) * size.y;
     count(placed.scene, load);
     if (placed.entity) count(*placed.entity, load);
+    const scene::Shadows shadows =
+        options.shadows.value_or(scene.settings.shadows.value_or(scene::Shadows::off));
+    if (shadows == scene::Shadows::map) countShadows(placed.scene, load);
     const Quality chosen =
         chooseQuality(*options.budgetMs, load,
                       options.samples ? options.samples : scene.settings.samples, options.errorPx);

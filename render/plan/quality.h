@@ -19,6 +19,7 @@ struct FrameLoad {
     double openModels = 0.0;        ///< whose divisions the renderer chooses
     double writtenTriangles = 0.0;  ///< of the others
     double lights = 0.0;
+    double shadowLights = 0.0, shadowMaps = 0.0;  ///< of the lights, with shadows=map
 };
 
 /// Expected time of a frame, ms; `samples` 1, 2, 4, 8 or 16.

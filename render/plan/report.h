@@ -25,7 +25,9 @@ struct Stats {
     int peeledLayers = 0;     ///< of their surfaces, sorted in each pixel
     int occluders = 0;        ///< models whose depths are drawn before anything is shaded
     double overdraw = 1.0;    ///< shading without that over what shows of it, estimated
-    std::int64_t lightsSkipped = 0;  ///< for each model: lights that add nothing to it
+    int shadowMaps = 0;       ///< depth maps of lights; one that shines to all sides has up to six
+    std::int64_t shadowTriangles = 0;  ///< in all of them
+    std::int64_t lightsSkipped = 0;    ///< for each model: lights that add nothing to it
 };
 
 /// The choice of a budget (PictureOptions::budgetMs), and the time expected for it.

@@ -52,6 +52,11 @@ bool isFinite(vec3 v) {
 }
 #endif
 
+#if defined(SHADOWED) && defined(FRAGMENT)
+// The share of a light that reaches the pixel, 0..1, by its `count` maps from `first` on.
+float shareOfLight(int first, int count, vec3 position);
+#endif
+
 // normal: unit. primary holds all but the specular part, which goes to secondary.
 void shade(vec3 position, vec3 normal, out vec3 primary, out vec3 secondary) {
     primary = materialBase;
@@ -82,8 +87,16 @@ void shade(vec3 position, vec3 normal, out vec3 primary, out vec3 secondary) {
         }
 #endif
         float lambert = dot(normal, toLight);
+#if defined(SHADOWED) && defined(FRAGMENT)
+        primary += strength * materialAmbient * lights[i].ambient.rgb;
+        int maps = int(lights[i].diffuse.w);
+        if (maps > 0 && lambert > 0.0 && strength > 0.0)
+            strength *= shareOfLight(int(lights[i].ambient.w), maps, position);
+        primary += strength * max(lambert, 0.0) * materialDiffuse * lights[i].diffuse.rgb;
+#else
         primary += strength * (materialAmbient * lights[i].ambient.rgb +
                                max(lambert, 0.0) * materialDiffuse * lights[i].diffuse.rgb);
+#endif
 #ifdef SPECULAR
         if (lambert > 0.0) {
 #ifdef LOCAL_VIEWER

@@ -25,6 +25,9 @@ COVERED in vec3 normalView;
 #if defined(PHONG) || defined(LAYER_DEPTH) || (defined(SURFACE) && defined(TEXGEN_EYE))
 COVERED in vec3 positionView;
 #endif
+#if defined(SHADOWED) && (!defined(SURFACE) || defined(SURFACE_PROFILE))
+in vec3 facePosition;  // at the pixel's middle, so that differences are those of the face
+#endif
 #ifdef VERTEX_COLOR
 COVERED in vec3 vertexColor;
 #endif
@@ -153,7 +156,22 @@ void main() {
 #endif
 #ifdef PHONG
     vec3 primary, secondary, modulated, extra;
-    shade(position, unitOr(normal, vec3(0.0, 0.0, 1.0)), primary, secondary);
+    vec3 shadingNormal = unitOr(normal, vec3(0.0, 0.0, 1.0));
+#ifdef SHADOWED
+    receiverNormal = shadingNormal;
+#if !defined(SURFACE) || defined(SURFACE_PROFILE)
+    vec3 face = unitOr(cross(dFdx(facePosition), dFdy(facePosition)), shadingNormal);
+    // llvmpipe takes a covered sample's attributes over the w of the pixel's middle: back to the face.
+    float facing = dot(face, position);
+    position *= abs(facing) > 1e-30 ? clamp(dot(face, facePosition) / facing, 0.5, 2.0) : 1.0;
+#endif
+#ifndef SURFACE
+    receiverNormal = dot(face, shadingNormal) < 0.0 ? -face : face;
+#elif defined(SURFACE_CAPS)
+    if (cap != 0.0) receiverOffset = vec2(0.0);
+#endif
+#endif
+    shade(position, shadingNormal, primary, secondary);
     finish(primary, secondary, modulated, extra);
 #endif
     result = vec4(modulated, 1.0);

@@ -83,6 +83,9 @@ COVERED out vec3 normalView;
 #if defined(PHONG) || defined(LAYER_DEPTH) || (defined(SURFACE) && defined(TEXGEN_EYE))
 COVERED out vec3 positionView;
 #endif
+#if defined(SHADOWED) && (!defined(SURFACE) || defined(SURFACE_PROFILE))
+out vec3 facePosition;
+#endif
 
 void main() {
 #ifdef EYE_POSITIONS
@@ -164,5 +167,8 @@ void main() {
 #endif
 #if defined(PHONG) || defined(LAYER_DEPTH) || (defined(SURFACE) && defined(TEXGEN_EYE))
     positionView = position.xyz;
+#endif
+#if defined(SHADOWED) && (!defined(SURFACE) || defined(SURFACE_PROFILE))
+    facePosition = position.xyz;
 #endif
 }

@@ -1,0 +1,180 @@
+#include "render/plan/shadow_bounds.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace farol::render {
+namespace {
+
+/// Models larger than this share of the scene's diagonal are looked at closely; at most so many.
+constexpr double kLarge = 0.25;
+constexpr int kMaxLarge = 8;
+constexpr std::size_t kMaxConvexTriangles = 64;
+
+struct Plane {
+    glm::dvec3 normal;
+    double offset;  ///< before it: dot(normal, p) + offset > 0
+    double distance(const glm::dvec3& point) const { return glm::dot(normal, point) + offset; }
+};
+
+bool isSeenThrough(const scene::Model& model) {
+    return model.opacity < 1.0F || (model.material && model.material->opacity < 1.0F);
+}
+
+/// The planes of a small convex mesh's faces, world space; none of any other mesh. `slack`: world
+/// units.
+std::vector<Plane> facesOf(const Instance& instance, double slack) {
+    const generator::Mesh& mesh = instance.mesh->mesh;
+    if (mesh.triangles() > kMaxConvexTriangles) return {};
+    std::vector<glm::dvec3> places;
+    for (const glm::vec3& position : mesh.positions())
+        places.emplace_back(instance.worldFromObject * glm::dvec4(position, 1.0));
+    const bool isMirrored = glm::determinant(glm::dmat3(instance.worldFromObject)) < 0.0;
+    std::vector<Plane> planes;
+    for (std::size_t i = 0; i + 2 < mesh.indices().size(); i += 3) {
+        const glm::dvec3& a = places[mesh.indices()[i]];
+        glm::dvec3 normal =
+            glm::cross(places[mesh.indices()[i + 1]] - a, places[mesh.indices()[i + 2]] - a);
+        const double length = glm::length(normal);
+        if (!(length > 0.0)) continue;
+        normal *= (isMirrored ? -1.0 : 1.0) / length;
+        const Plane plane{normal, -glm::dot(normal, a)};
+        bool isHull = true, isFlat = true;
+        for (const glm::dvec3& place : places) {
+            isHull &= plane.distance(place) <= slack;
+            isFlat &= std::abs(plane.distance(place)) <= slack;
+        }
+        if (!isHull) return {};
+        planes.push_back(plane);
+        if (isFlat) planes.push_back({-plane.normal, -plane.offset});
+    }
+    return planes;
+}
+
+/// True if the light and all others are before one of the instance's faces.
+bool standsBehind(const InstanceList& list, const std::vector<CastingBox>& boxes, std::size_t index,
+                  const LightPlace& light, double slack) {
+    for (const Plane& plane : facesOf(list.instances[index], slack)) {
+        const double side =
+            light.isPositional ? plane.distance(light.at) : glm::dot(plane.normal, light.at);
+        if (!(side > (light.isPositional ? slack : 1e-9))) continue;
+        bool areBefore = true;
+        for (std::size_t i = 0; i < boxes.size() && areBefore; ++i) {
+            if (i == index || !boxes[i].isThere) continue;
+            for (const glm::dvec3& corner : boxes[i].corners)
+                areBefore &= plane.distance(corner) >= -slack;
+        }
+        if (areBefore) return true;
+    }
+    return false;
+}
+
+using Polygon = std::vector<glm::dvec3>;
+
+/// The part of a convex polygon before a plane.
+Polygon cut(const Polygon& polygon, const Plane& plane) {
+    Polygon out;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const glm::dvec3& a = polygon[i];
+        const glm::dvec3& b = polygon[(i + 1) % polygon.size()];
+        const double before = plane.distance(a), after = plane.distance(b);
+        if (before >= 0.0) out.push_back(a);
+        if ((before >= 0.0) != (after >= 0.0))
+            out.push_back(a + (b - a) * (before / (before - after)));
+    }
+    return out;
+}
+
+/// Six corners' quads of a box or a frustum, whose corner i has the bits of its three sides.
+constexpr std::array<std::array<int, 4>, 6> kQuads{
+    {{0, 1, 3, 2}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 3, 7, 5}}};
+
+/// The planes of those quads, with what the corners enclose before them.
+std::vector<Plane> planesOf(const std::array<glm::dvec3, 8>& corners) {
+    glm::dvec3 middle(0.0);
+    for (const glm::dvec3& corner : corners) middle += corner / 8.0;
+    std::vector<Plane> planes;
+    for (const auto& quad : kQuads) {
+        const auto at = [&](int i) {
+            return corners[static_cast<std::size_t>(quad[static_cast<std::size_t>(i)])];
+        };
+        glm::dvec3 normal = glm::cross(at(2) - at(0), at(3) - at(1));
+        const double length = glm::length(normal);
+        if (!(length > 0.0)) continue;  // a flat box
+        normal /= length;
+        Plane plane{normal, -glm::dot(normal, 0.25 * (at(0) + at(1) + at(2) + at(3)))};
+        if (plane.distance(middle) < 0.0) plane = {-plane.normal, -plane.offset};
+        planes.push_back(plane);
+    }
+    return planes;
+}
+
+void addCut(const std::array<glm::dvec3, 8>& corners, const std::vector<Plane>& planes,
+            std::vector<glm::dvec3>& out) {
+    for (const auto& quad : kQuads) {
+        Polygon polygon;
+        for (const int i : quad) polygon.push_back(corners[static_cast<std::size_t>(i)]);
+        for (const Plane& plane : planes) polygon = cut(polygon, plane);
+        out.insert(out.end(), polygon.begin(), polygon.end());
+    }
+}
+
+}  // namespace
+
+std::vector<CastingBox> castingBoxes(const InstanceList& list, bool isTransparent) {
+    std::vector<CastingBox> boxes(list.instances.size());
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+        const Instance& instance = list.instances[i];
+        const Box& box = instance.mesh->bounds;
+        boxes[i].isThere = !box.empty() && !instance.mesh->mesh.indices().empty();
+        if (!boxes[i].isThere) continue;
+        boxes[i].casts = !(isTransparent && isSeenThrough(*instance.model));
+        for (std::size_t corner = 0; corner < 8; ++corner)
+            boxes[i].corners[corner] = glm::dvec3(
+                instance.worldFromObject * glm::dvec4(corner & 1 ? box.max.x : box.min.x,
+                                                      corner & 2 ? box.max.y : box.min.y,
+                                                      corner & 4 ? box.max.z : box.min.z, 1.0));
+    }
+    return boxes;
+}
+
+std::vector<std::size_t> castersUnder(const InstanceList& list,
+                                      const std::vector<CastingBox>& boxes,
+                                      const LightPlace& light) {
+    const double diagonal = glm::length(list.bounds.max - list.bounds.min);
+    std::vector<std::size_t> casters;
+    int large = 0;
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+        if (!boxes[i].casts) continue;
+        // Opposite corners.
+        const bool isLarge =
+            glm::length(boxes[i].corners[7] - boxes[i].corners[0]) > kLarge * diagonal;
+        if (isLarge && large < kMaxLarge) {
+            ++large;
+            if (standsBehind(list, boxes, i, light, 1e-7 * diagonal)) continue;
+        }
+        casters.push_back(i);
+    }
+    return casters;
+}
+
+std::vector<glm::dvec3> visibleCorners(const Box& box, const ViewTransform& view) {
+    std::array<glm::dvec3, 8> ofBox{}, ofView{};
+    for (std::size_t i = 0; i < 8; ++i) {
+        ofBox[i] = {i & 1 ? box.max.x : box.min.x, i & 2 ? box.max.y : box.min.y,
+                    i & 4 ? box.max.z : box.min.z};
+        const double away = i & 4 ? view.far : view.near;
+        const glm::dvec3 eye((i & 1 ? 1.0 : -1.0) * view.tanHalfFov.x * away,
+                             (i & 2 ? 1.0 : -1.0) * view.tanHalfFov.y * away, -away);
+        ofView[i] = view.eye + glm::transpose(view.rotation) * eye;
+    }
+    std::vector<glm::dvec3> corners;
+    addCut(ofBox, planesOf(ofView), corners);
+    // A flat box has no inside to cut the view by.
+    const glm::dvec3 size = box.max - box.min;
+    if (std::min({size.x, size.y, size.z}) > 0.0) addCut(ofView, planesOf(ofBox), corners);
+    return corners;
+}
+
+}  // namespace farol::render

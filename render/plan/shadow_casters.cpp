@@ -1,0 +1,152 @@
+#include "render/plan/shadow_casters.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "render/plan/transparency.h"
+
+namespace farol::render {
+namespace {
+
+/// Most that a mesh errs in its map, texels: less than the filter blurs. And least, of its size.
+constexpr double kErrorTexels = 0.5, kFinest = 1e-4;
+
+double distanceOf(const std::array<glm::dvec3, 8>& corners, const LightView& light) {
+    if (!light.isPerspective) return 1.0;
+    Box box;
+    for (const glm::dvec3& corner : corners) box.add(corner);
+    const glm::dvec3 outside =
+        glm::max(glm::max(box.min - light.origin, light.origin - box.max), 0.0);
+    // A lamp within a body, or beside it, needs no finer one than its size asks for.
+    return std::max(0.25 * glm::length(box.max - box.min), glm::length(outside));
+}
+
+class CasterMaker {
+  public:
+    CasterMaker(const PlannedShadowMap& map, const ViewTransform& view, const CasterSource& source)
+        : map_(map), view_(view), source_(source) {}
+
+    std::vector<DrawItem> run() {
+        for (const std::size_t i : map_.casters) add(source_.list.instances[i]);
+        // Likes in a row are one draw call.
+        const auto key = [](const DrawItem& item) {
+            return std::tuple(item.mesh->id, item.firstIndex, item.mirrored, item.texture);
+        };
+        std::stable_sort(items_.begin(), items_.end(),
+                         [&](const DrawItem& a, const DrawItem& b) { return key(a) < key(b); });
+        return std::move(items_);
+    }
+
+  private:
+    void add(const Instance& instance) {
+        const scene::Model& model = *instance.model;
+        const LightView& light = map_.light;
+        DrawItem item;
+        item.mesh = instance.open ? refined(instance) : instance.mesh;
+        const glm::dmat3 linear = light.rotation * glm::dmat3(instance.worldFromObject);
+        glm::dmat4 lightFromObject(linear);
+        lightFromObject[3] = glm::dvec4(
+            light.rotation * (glm::dvec3(instance.worldFromObject[3]) - light.origin), 1.0);
+        item.viewFromObject = glm::mat4(lightFromObject);
+        item.mirrored = glm::determinant(linear) < 0.0;
+        item.indices = item.mesh->mesh.indices().size();
+        // Bodies stop light that meets their outsides, so that a lamp within one shines.
+        const bool isSheet =
+            model.twoSided || model.source.isSheet || isFlat(instance.mesh->bounds);
+        if (instance.looks >= 0) {
+            const std::vector<generator::MeshPart>& parts = item.mesh->mesh.parts();
+            for (std::size_t i = 0; i < parts.size(); ++i) {
+                const PartLook& look =
+                    source_.list.looks[static_cast<std::size_t>(instance.looks) + i];
+                if (source_.isTransparent && look.material != nullptr &&
+                    look.material->material.opacity < 1.0F)
+                    continue;
+                item.firstIndex = parts[i].first;
+                item.indices = parts[i].count;
+                item.texture = -1;
+                if (look.texture >= 0) dress(item, *look.material->texture, look.texture);
+                push(item, isSheet);
+            }
+            return;
+        }
+        if (model.texture) dress(item, *model.texture, instance.texture);
+        push(item, isSheet);
+    }
+
+    void push(const DrawItem& item, bool isSheet) {
+        items_.push_back(item);
+        if (!isSheet) return;
+        items_.push_back(item);
+        items_.back().mirrored = !item.mirrored;
+    }
+
+    /// The mesh of an open shape, as fine as the map's texels ask for.
+    std::shared_ptr<const MeshData> refined(const Instance& instance) {
+        const glm::dmat3 linear(instance.worldFromObject);
+        const double largest =
+            std::sqrt(glm::dot(linear[0], linear[0]) + glm::dot(linear[1], linear[1]) +
+                      glm::dot(linear[2], linear[2]));
+        std::array<glm::dvec3, 8> corners;
+        const Box& box = instance.mesh->bounds;
+        for (std::size_t corner = 0; corner < 8; ++corner)
+            corners[corner] = glm::dvec3(instance.worldFromObject *
+                                         glm::dvec4(corner & 1 ? box.max.x : box.min.x,
+                                                    corner & 2 ? box.max.y : box.min.y,
+                                                    corner & 4 ? box.max.z : box.min.z, 1.0));
+        const double error =
+            std::max(kFinest * glm::length(box.max - box.min),
+                     kErrorTexels * source_.coarsening * map_.light.texel *
+                         distanceOf(corners, map_.light) / std::max(1e-300, largest));
+        generator::Fineness fine{};
+        fine.error = std::exp2(std::floor(4.0 * std::log2(std::max(1e-300, error))) / 4.0);
+        fine.fullTurn = 8.0;
+        return source_.meshes.get(*instance.mesh, *instance.model, source_.assets, fine);
+    }
+
+    /// Its texture may have holes.
+    void dress(DrawItem& item, const scene::Texture& from, int texture) {
+        if (!source_.isTransparent || from.chess) return;
+        const generator::Mesh& mesh = item.mesh->mesh;
+        if (from.mapping == scene::Mapping::mesh && mesh.uvs().empty()) return;
+        item.mapping = from.mapping;
+        const bool isObject = item.mapping == scene::Mapping::texgenObject;
+        const glm::dvec3 origin = isObject ? mesh.origin() : glm::dvec3(0.0);
+        item.planeS = texgenPlane(from.planeS, origin, from.clamp);
+        item.planeT = texgenPlane(from.planeT, origin, from.clamp);
+        if (item.mapping == scene::Mapping::texgenEye) {
+            // The planes are the camera's, places the light's.
+            const glm::dmat3 turn = view_.rotation * glm::transpose(map_.light.rotation);
+            glm::dmat4 eyeFromLight(turn);
+            eyeFromLight[3] = glm::dvec4(view_.eyeFromWorld(map_.light.origin), 1.0);
+            const glm::mat4 across(glm::transpose(eyeFromLight));
+            item.planeS = across * item.planeS;
+            item.planeT = across * item.planeT;
+        }
+        item.uvFrom = uvPlacement(from, mesh.uvOrigin());
+        item.texture = source_.textureIndex(static_cast<std::size_t>(texture));
+    }
+
+    const PlannedShadowMap& map_;
+    const ViewTransform& view_;
+    const CasterSource& source_;
+    std::vector<DrawItem> items_;
+};
+
+}  // namespace
+
+void addShadowMaps(FramePlan& plan, const PlannedShadows& shadows, const CasterSource& source) {
+    plan.shadowSide = shadows.side;
+    for (const PlannedShadowMap& planned : shadows.maps) {
+        ShadowMap map;
+        map.eye = eyeShadowMap(planned.light, plan.view);
+        map.clip = planned.light.clip();
+        map.casters = CasterMaker(planned, plan.view, source).run();
+        for (const DrawItem& item : map.casters)
+            plan.stats.shadowTriangles += static_cast<std::int64_t>(item.indices / 3);
+        plan.shadowMaps.push_back(std::move(map));
+    }
+    plan.stats.shadowMaps += static_cast<int>(shadows.maps.size());
+}
+
+}  // namespace farol::render

@@ -25,12 +25,14 @@ bool inCone(const EyeLight& light, const glm::dvec3& point) {
 }
 
 glm::dvec3 shade(const Rules& rules, const Dress& dress, const std::vector<EyeLight>& lights,
-                 const glm::dvec3& point, const glm::dvec3& normal, const glm::dvec3& texture) {
+                 const glm::dvec3& point, const glm::dvec3& normal, const glm::dvec3& texture,
+                 std::uint64_t shadowed) {
     glm::dvec3 primary = dress.emissive + dress.ambient * rules.globalAmbient;
     glm::dvec3 secondary(0.0);
     const glm::dvec3 viewer =
         rules.viewer == scene::Viewer::local ? unitOrZero(-point) : glm::dvec3(0.0, 0.0, 1.0);
-    for (const EyeLight& light : lights) {
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        const EyeLight& light = lights[i];
         if (!inCone(light, point)) continue;
         glm::dvec3 towards = light.towards;
         double strength = 1.0;
@@ -43,7 +45,7 @@ glm::dvec3 shade(const Rules& rules, const Dress& dress, const std::vector<EyeLi
         }
         const double facing = glm::dot(normal, towards);
         primary += strength * dress.ambient * light.ambient;
-        if (!(facing > 0.0)) continue;
+        if (!(facing > 0.0) || (shadowed >> (i % 64) & 1U)) continue;
         primary += strength * facing * dress.diffuse * light.diffuse;
         const double glint = std::max(0.0, glm::dot(normal, unitOrZero(towards + viewer)));
         secondary += strength * power(glint, dress.shininess) * dress.specular * light.specular;

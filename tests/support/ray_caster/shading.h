@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <glm/glm.hpp>
 #include <vector>
 
@@ -34,8 +35,10 @@ struct Rules {
 bool inCone(const EyeLight& light, const glm::dvec3& point);
 
 /// OpenGL 2.1, section 2.14.1 and 3.9: the colour 0..1 of a point in eye space with a unit normal
-/// and the texture's colour there (1 where there is none).
+/// and the texture's colour there (1 where there is none). `shadowed`: a bit for each light that
+/// does not reach the point; its ambient part does.
 glm::dvec3 shade(const Rules& rules, const Dress& dress, const std::vector<EyeLight>& lights,
-                 const glm::dvec3& point, const glm::dvec3& normal, const glm::dvec3& texture);
+                 const glm::dvec3& point, const glm::dvec3& normal, const glm::dvec3& texture,
+                 std::uint64_t shadowed = 0);
 
 }  // namespace farol::reference

@@ -59,6 +59,37 @@ Place placeOf(const World& world, const Instance& one, const Surface& s,
     return place;
 }
 
+/// True where the texture of a cut-out has a hole.
+bool isHole(const World& world, const Instance& one, const Ray& ray, const Hit& hit,
+            const glm::dvec3& direction) {
+    if (one.kind != Texture::Kind::cutOut || !one.texture) return false;
+    const Place place = placeOf(world, one, one.shape->surface(ray, hit), direction, hit.t);
+    return one.texture->sample(place.uv, glm::dvec2(0.0), glm::dvec2(0.0), one.filter).a < 0.5;
+}
+
+/// True where a surface is between the light and the point, in eye space. Light meets the outsides
+/// of bodies, and both sides of sheets; what is blended stops none.
+bool isShadowed(const World& world, const EyeLight& light, const glm::dvec3& point) {
+    // From the light, as seen from there: directional light from beyond all that there is.
+    const glm::dvec3 from = light.positional
+                                ? light.position
+                                : point + light.towards * (2.0 * world.reach + glm::length(point));
+    const glm::dvec3 direction = point - from;
+    for (const Instance& one : world.instances) {
+        if (one.kind == Texture::Kind::blended) continue;
+        const Ray ray{one.objectFromView * (from - one.originView), one.objectFromView * direction};
+        double begin = 0.0;
+        for (;;) {
+            Nearest nearest(begin, 1.0 - 1e-7, one.isSheet);
+            one.shape->intersect(ray, nearest);
+            if (!nearest.found()) break;
+            if (!isHole(world, one, ray, nearest.best(), direction)) return true;
+            begin = nearest.best().t + 1e-9;
+        }
+    }
+    return false;
+}
+
 /// Fills in a surface alone. Returns its opacity; the colour is not multiplied by it.
 double color(const World& world, const Instance& one, const Ray& ray, const Hit& hit,
              const glm::dvec3& direction, Sample& sample) {
@@ -90,8 +121,17 @@ double color(const World& world, const Instance& one, const Ray& ray, const Hit&
     }
     for (const EyeLight& light : one.lights)
         sample.part = 2 * (sample.part % (1 << 20)) + (inCone(light, sample.point) ? 1 : 0);
-    sample.color = shade(world.rules, one.dress, one.lights, sample.point,
-                         glm::normalize(side * (normalMatrix * inner)), texel);
+    const glm::dvec3 normal = glm::normalize(side * (normalMatrix * inner));
+    std::uint64_t shadowed = 0;
+    for (std::size_t i = 0; i < one.lights.size(); ++i) {
+        const EyeLight& light = one.lights[i];
+        const glm::dvec3 towards = light.positional ? light.position - sample.point : light.towards;
+        const std::uint64_t bit = std::uint64_t{1} << (i % 64);
+        if (world.shadows && isShadowed(world, light, sample.point)) shadowed |= bit;
+        if (glm::dot(normal, towards) > 0.0 && inCone(light, sample.point)) sample.lit |= bit;
+    }
+    sample.lit &= ~shadowed;
+    sample.color = shade(world.rules, one.dress, one.lights, sample.point, normal, texel, shadowed);
     return opacity;
 }
 
@@ -207,12 +247,13 @@ Sample trace(const World& world, double x, double y) {
 }
 
 Picture traceCenters(const World& world, int threads) {
-    Picture picture{world.width, world.height, {}, {}, {}, {}, 1, 0.0};
+    Picture picture{world.width, world.height, {}, {}, {}, {}, {}, 1, 0.0};
     const std::size_t count = picture.at(0, world.height);
     picture.color.resize(count);
     picture.id.resize(count);
     picture.opaqueId.resize(count);
     picture.edge.resize(count);
+    picture.lit.resize(count);
     std::vector<Sample> samples(count);
     eachRow(world.height, threads, [&](int y) {
         for (int x = 0; x < world.width; ++x) {
@@ -221,6 +262,7 @@ Picture traceCenters(const World& world, int threads) {
             picture.color[picture.at(x, y)] = sample.color;
             picture.id[picture.at(x, y)] = sample.id;
             picture.opaqueId[picture.at(x, y)] = sample.opaqueId;
+            picture.lit[picture.at(x, y)] = sample.lit;
         }
     });
     for (int y = 0; y < world.height; ++y)

@@ -14,6 +14,9 @@ struct Sample {
     int id = 0;        ///< of the nearest surface; 0: the background
     int opaqueId = 0;  ///< of the nearest surface that is at least half opaque; 0: none is
     int part = 0;      ///< the face of the shape, and which cones of light it is in
+    /// A bit for each light of the nearest surface that shines on it: before its face, in the cone,
+    /// and not in a shadow.
+    std::uint64_t lit = 0;
     std::uint64_t ids = 0, parts = 0;  ///< digests of all surfaces behind each other that are seen
     double depth = 0.0;                ///< along the view, of the nearest
     glm::dvec3 point{0.0}, normal{0.0};  ///< eye space; the normal unit, of the surface
@@ -30,6 +33,7 @@ struct Picture {
     int width = 0, height = 0;
     std::vector<glm::dvec3> color;
     std::vector<int> id, opaqueId;   ///< at pixel centres
+    std::vector<std::uint64_t> lit;  ///< of Sample, at pixel centres
     std::vector<std::uint8_t> edge;  ///< a Flags, at pixel centres
     int side = 1;                    ///< samples a side of each pixel, at most
     double change = 0.0;             ///< R2: rms change at the last doubling, 0..1

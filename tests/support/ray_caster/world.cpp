@@ -54,6 +54,7 @@ class Maker {
         world_.near = camera.near;
         world_.far = camera.far;
         world_.background = options_.background;
+        world_.shadows = options_.shadows;
         world_.rules = {glm::dvec3(scene_.globalAmbient), options_.viewer, options_.specular};
         std::vector<EyeLight> lights;
         for (const scene::Light& light : scene_.lights)
@@ -141,9 +142,15 @@ class Maker {
         // See-through bodies show their insides; sheets stay as they are.
         const Bounds box = one.shape->bounds();
         const glm::dvec3 size = box.max - box.min;
+        one.isSheet = model.twoSided || std::min({size.x, size.y, size.z}) <= 1e-6;
         if (one.kind != Texture::Kind::opaque)
             one.twoSided |= std::min({size.x, size.y, size.z}) > 1e-6;
         frame(one);
+        world_.reach =
+            std::max(world_.reach, glm::length(one.originView) +
+                                       std::max(glm::length(one.viewFromObject * box.min),
+                                                glm::length(one.viewFromObject * box.max)) *
+                                           2.0);
         world_.instances.push_back(std::move(one));
     }
 

@@ -28,6 +28,7 @@ struct Options {
     scene::Specular specular = scene::Specular::single;
     std::optional<scene::Filter> filter;  ///< unset: the texture's own, else mipmap
     bool transparency = true;             ///< false: all is opaque
+    bool shadows = false;                 ///< hard ones, of what is not blended
     glm::dvec3 background{0.0};
     int threads = 2;
 };
@@ -39,6 +40,7 @@ struct Instance {
     glm::dmat3 viewFromObject{1.0}, objectFromView{1.0};  ///< without translation
     glm::dvec3 originView{0.0};                           ///< the object's origin in eye space
     bool twoSided = false, unlit = false;
+    bool isSheet = false;  ///< stops light that meets either side
     Dress dress;
     std::vector<EyeLight> lights;
     std::shared_ptr<const Texture> texture;  ///< null: none
@@ -56,6 +58,8 @@ struct World {
     double near = 0.0, far = 0.0;  ///< eye depths
     glm::dvec3 background{0.0};
     Rules rules;
+    bool shadows = false;
+    double reach = 0.0;  ///< of all bounds, from the eye
     std::vector<Instance> instances;
 
     /// The ray through a place of the picture, px from the top left; t is the eye's depth.

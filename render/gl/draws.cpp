@@ -37,6 +37,10 @@ GLenum modeOf(Polygons polygons) {
 
 }  // namespace
 
+const EyeShadowLight& shadowLightOf(const FramePlan& plan, const EyeLight& light) {
+    return plan.shadowLights[static_cast<std::size_t>(light.ambient.w)];
+}
+
 ProgramKey keyOf(const FramePlan& plan, const Pass& pass, const Batch& batch) {
     const DrawItem& first = plan.items[plan.batches.order[batch.first]];
     ProgramKey key;
@@ -51,6 +55,13 @@ ProgramKey keyOf(const FramePlan& plan, const Pass& pass, const Batch& batch) {
     const auto set = static_cast<std::size_t>(first.lightSet);
     if (pass.features.hasAny(kLitFeatures))
         key.count = static_cast<int>(plan.lightSets[set].size());
+    if (!key.features.has(Feature::shadowed)) return key;
+    for (const EyeLight& light : plan.lightSets[set]) {
+        if (!(light.diffuse.w > 0.0F)) break;
+        ++key.shadows;
+        if (shadowLightOf(plan, light).facts.w > 0.0F) key.features.add(Feature::shadowCube);
+    }
+    if (key.shadows == 0) key.features.remove(Feature::shadowed);
     return key;
 }
 
@@ -58,6 +69,8 @@ void Painter::State::setLights(const DrawItem& item, int count, const LinkedProg
     if (count == 0) return;
     const auto set = static_cast<std::size_t>(item.lightSet);
     api.BindBufferBase(GL_UNIFORM_BUFFER, kLightsBinding, lightBuffers[set].name());
+    if (set < shadowBuffers.size())
+        api.BindBufferBase(GL_UNIFORM_BUFFER, kShadowLightsBinding, shadowBuffers[set].name());
     if (program.lightCount >= 0) api.Uniform1i(program.lightCount, count);
 }
 

@@ -146,14 +146,7 @@ void Painter::State::compileAhead(const FramePlan& plan) {
 
 void Painter::State::prepare(FramePlan& plan, const OpenTexture& open) {
     preparePlaces(plan);
-    while (lightBuffers.size() < plan.lightSets.size()) lightBuffers.emplace_back(api);
-    for (std::size_t i = 0; i < plan.lightSets.size(); ++i) {
-        if (plan.lightSets[i].empty()) continue;
-        api.BindBuffer(GL_UNIFORM_BUFFER, lightBuffers[i].name());
-        api.BufferData(GL_UNIFORM_BUFFER,
-                       static_cast<GLsizeiptr>(plan.lightSets[i].size() * sizeof(EyeLight)),
-                       plan.lightSets[i].data(), GL_STREAM_DRAW);
-    }
+    prepareLights(plan);
     if (!plan.shadowMaps.empty()) shadows.bind(plan);
     prepareTextures(plan, open);
     const bool allOpaque =
@@ -164,6 +157,25 @@ void Painter::State::prepare(FramePlan& plan, const OpenTexture& open) {
     plan.textureAlphas = textureAlphas;
     composePasses(plan, facts);
     preparePlaces(plan);
+}
+
+void Painter::State::prepareLights(const FramePlan& plan) {
+    const auto upload = [&](std::vector<Buffer>& buffers, std::size_t set, const auto& values) {
+        while (buffers.size() <= set) buffers.emplace_back(api);
+        if (values.empty()) return;
+        api.BindBuffer(GL_UNIFORM_BUFFER, buffers[set].name());
+        api.BufferData(GL_UNIFORM_BUFFER,
+                       static_cast<GLsizeiptr>(values.size() * sizeof values.front()),
+                       values.data(), GL_STREAM_DRAW);
+    };
+    for (std::size_t i = 0; i < plan.lightSets.size(); ++i) {
+        upload(lightBuffers, i, plan.lightSets[i]);
+        if (plan.shadowLights.empty()) continue;
+        std::vector<EyeShadowLight> ofSet;
+        for (const EyeLight& light : plan.lightSets[i])
+            if (light.diffuse.w > 0.0F) ofSet.push_back(shadowLightOf(plan, light));
+        upload(shadowBuffers, i, ofSet);
+    }
 }
 
 /// The places of all instanced batches, one behind the other.

@@ -18,6 +18,9 @@ namespace farol::render::gl {
 constexpr std::size_t kMeshBytes = std::size_t{256} << 20;
 constexpr std::size_t kTextureBytes = std::size_t{384} << 20;
 
+/// The maps of a light that has some.
+const EyeShadowLight& shadowLightOf(const FramePlan& plan, const EyeLight& light);
+
 /// The program of a batch in a pass.
 ProgramKey keyOf(const FramePlan& plan, const Pass& pass, const Batch& batch);
 
@@ -40,7 +43,7 @@ struct Painter::State {
     BoxMean mean;
     VertexArray lineArray{api}, emptyArray{api};
     Buffer lineBuffer{api};
-    std::vector<Buffer> lightBuffers;
+    std::vector<Buffer> lightBuffers, shadowBuffers;  ///< of the light sets
     std::vector<GLuint> textureNames;
     std::vector<std::vector<TextureNote>> textureNotes;  ///< of each texture of the plan
     std::vector<image::Alpha> textureAlphas;             ///< likewise
@@ -54,6 +57,7 @@ struct Painter::State {
     void prepareTextures(const FramePlan& plan, const OpenTexture& open);
     void compileAhead(const FramePlan& plan);
     void prepare(FramePlan& plan, const OpenTexture& open);
+    void prepareLights(const FramePlan& plan);
     void preparePlaces(const FramePlan& plan);
     void begin(const FramePlan& plan, const Pass& pass);
     void read(const FramePlan& plan, std::size_t pass, image::Image& image);

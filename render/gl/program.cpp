@@ -37,7 +37,8 @@ constexpr std::array<FeatureName, kFeatures> kNames{{
     {Feature::specular, "SPECULAR"},
     {Feature::localViewer, "LOCAL_VIEWER"},
     {Feature::separateSpecular, "SEPARATE_SPECULAR"},
-    {Feature::shadowed, "SHADOWED"},
+    {Feature::shadowed, "SHADOWED", true},
+    {Feature::shadowCube, "SHADOW_CUBE"},
     {Feature::markNotFinite, "MARK_NOT_FINITE"},
     {Feature::textured, "TEXTURED"},
     {Feature::filterMipmap, "FILTER_MIPMAP"},
@@ -78,7 +79,9 @@ std::string definesOf(const ProgramKey& key) {
     for (const FeatureName& row : kNames) {
         if (!key.features.has(row.feature)) continue;
         text += std::string("#define ") + row.name;
-        const int count = row.feature == Feature::eachSample ? key.samples : key.count;
+        const int count = row.feature == Feature::eachSample ? key.samples
+                          : row.feature == Feature::shadowed ? key.shadows
+                                                             : key.count;
         if (row.counted) text += ' ' + std::to_string(count);
         text += '\n';
     }

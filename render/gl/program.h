@@ -18,6 +18,7 @@ struct ProgramKey {
     FeatureSet features;
     int count = 0;                      ///< of lights (lightCount) or samples (resolve)
     int samples = 0;                    ///< of the target (eachSample)
+    int shadows = 0;                    ///< of the lights (shadowed)
     std::string_view surfaceKind = {};  ///< generator::SurfaceKind::glsl
     auto operator<=>(const ProgramKey&) const = default;
 };
@@ -46,8 +47,8 @@ class ProgramCache {
     std::map<ProgramKey, LinkedProgram> programs_;
 };
 
-/// Bindings of the uniform blocks Lights and ShadowMaps.
-inline constexpr GLuint kLightsBinding = 0, kShadowMapsBinding = 1;
+/// Bindings of the uniform blocks Lights and ShadowLights.
+inline constexpr GLuint kLightsBinding = 0, kShadowLightsBinding = 1;
 
 /// Texture units: pictures; in peeled layers the depths of opaque surfaces and of the layer before;
 /// shadow maps.

@@ -1,7 +1,6 @@
 #include "render/gl/shadow_store.h"
 
 #include <algorithm>
-#include <array>
 #include <new>
 
 #include "render/gl/program.h"
@@ -52,11 +51,6 @@ void ShadowStore::bind(const FramePlan& plan) {
     }
     api_.BindTexture(GL_TEXTURE_2D_ARRAY, depths_.name());
     api_.ActiveTexture(GL_TEXTURE0 + kPictureUnit);
-    std::array<EyeShadowMap, kMaxShadowMaps> maps{};
-    for (std::size_t i = 0; i < plan.shadowMaps.size(); ++i) maps[i] = plan.shadowMaps[i].eye;
-    api_.BindBuffer(GL_UNIFORM_BUFFER, facts_.name());
-    api_.BufferData(GL_UNIFORM_BUFFER, sizeof maps, maps.data(), GL_STREAM_DRAW);
-    api_.BindBufferBase(GL_UNIFORM_BUFFER, kShadowMapsBinding, facts_.name());
 }
 
 bool ShadowStore::has(const FramePlan& plan, std::size_t map) const {

@@ -11,9 +11,9 @@ namespace farol::render::gl {
 /// The shadow maps of a painter: layers of one array of depths, kept for the next frame.
 class ShadowStore {
   public:
-    explicit ShadowStore(const Api& api) : api_(api), facts_(api) {}
+    explicit ShadowStore(const Api& api) : api_(api) {}
 
-    /// Binds the array for the plan's maps and what shaders know of them. Drops what it has where
+    /// Binds the array for the plan's maps. Drops what it has where
     /// the maps' size or number is another. Throws std::bad_alloc when GL refuses.
     void bind(const FramePlan& plan);
     /// True if the layer has the depths of the plan's map already.
@@ -30,7 +30,6 @@ class ShadowStore {
     };
 
     const Api& api_;
-    Buffer facts_;
     Texture depths_;
     Framebuffer framebuffer_;
     int side_ = 0;

@@ -23,7 +23,8 @@ enum class Feature : std::uint8_t {
     specular,
     localViewer,
     separateSpecular,
-    shadowed,  ///< lights have shadow maps
+    shadowed,    ///< counted: lights with shadow maps, the first of all
+    shadowCube,  ///< of six maps, for some of them
     markNotFinite,
     // Texture.
     textured,

@@ -148,7 +148,6 @@ struct FramePlan;
 
 /// The depths of what a light sees.
 struct ShadowMap {
-    EyeShadowMap eye;      ///< for those who look it up
     glm::dmat4 clip{1.0};  ///< clipFromLight
     std::vector<DrawItem>
         casters;  ///< in light space; drawn by their mesh, texture and place alone
@@ -165,8 +164,9 @@ struct FramePlan {
     Batches batches;  ///< of the items
     std::vector<LineVertex> lines;
     std::vector<std::vector<EyeLight>> lightSets;  ///< all empty where nothing is lit
-    std::vector<ShadowMap> shadowMaps;             ///< lights refer to them
-    int shadowSide = 0;                            ///< of each of them, texels
+    std::vector<ShadowMap> shadowMaps;
+    std::vector<EyeShadowLight> shadowLights;  ///< lights refer to them
+    int shadowSide = 0;                        ///< of each of them, texels
     glm::vec3 globalAmbient{1.0F};
     std::vector<TextureRef> textures;
     std::vector<image::Alpha> textureAlphas;  ///< of textures, once they are decoded; else empty

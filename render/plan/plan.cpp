@@ -178,6 +178,9 @@ class Planner {
             if (!style_.lit) continue;
             if (list.lights.empty()) chosen = inherited;
             for (const int index : set) chosen.push_back(lights[static_cast<std::size_t>(index)]);
+            if (style_.hasShadows)  // shaders have the shadows of the first
+                std::stable_partition(chosen.begin(), chosen.end(),
+                                      [](const EyeLight& light) { return light.diffuse.w > 0.0F; });
         }
         plan_.stats.lights += static_cast<int>(list.lights.size());
     }
@@ -269,9 +272,8 @@ class Planner {
         if (largest > 0.0)
             item.normalFromObject = glm::mat3(cofactor * ((det < 0.0 ? -1.0 : 1.0) / largest));
         item.mirrored = det < 0.0;
-        // Pixels that follow their rays, or not, and maps with meshes of another fineness.
-        if (style_.hasShadows && instance.open && !isFlat(instance.mesh->bounds))
-            item.shadowOffset = glm::vec2(1.0, errorPx_ * view.pixelAngle);
+        if (style_.hasShadows && instance.open)
+            item.shadowOffset = shadowOffsetOf(item, instance, errorPx_ * view.pixelAngle);
         item.isBody = !model.twoSided && !model.source.isSheet && !isFlat(instance.mesh->bounds);
         fillMaterial(item, instance, list, undressed);
         item.indices = item.mesh->mesh.indices().size();

@@ -10,7 +10,7 @@ namespace farol::render {
 namespace {
 
 /// Most that a mesh errs in its map, texels: less than the filter blurs. And least, of its size.
-constexpr double kErrorTexels = 0.5, kFinest = 1e-4;
+constexpr double kErrorTexels = 0.125, kFinest = 1e-4;
 
 double distanceOf(const std::array<glm::dvec3, 8>& corners, const LightView& light) {
     if (!light.isPerspective) return 1.0;
@@ -135,17 +135,25 @@ class CasterMaker {
 
 }  // namespace
 
+glm::vec2 shadowOffsetOf(const DrawItem& item, const Instance& instance, double error) {
+    // Shapes without curved parts have the same faces at any fineness.
+    if (instance.surface < 0 && !instance.mesh->flats.empty()) return glm::vec2(0.0F);
+    const bool isExact = item.surface && (item.isOnSurface || item.surface->kind->raySteps > 0);
+    return {0.5, isExact ? 0.0 : error};
+}
+
 void addShadowMaps(FramePlan& plan, const PlannedShadows& shadows, const CasterSource& source) {
     plan.shadowSide = shadows.side;
     for (const PlannedShadowMap& planned : shadows.maps) {
         ShadowMap map;
-        map.eye = eyeShadowMap(planned.light, plan.view);
         map.clip = planned.light.clip();
         map.casters = CasterMaker(planned, plan.view, source).run();
         for (const DrawItem& item : map.casters)
             plan.stats.shadowTriangles += static_cast<std::int64_t>(item.indices / 3);
         plan.shadowMaps.push_back(std::move(map));
     }
+    for (const PlannedShadowLight& light : shadows.lights)
+        plan.shadowLights.push_back(eyeShadowLight(shadows, light, plan.view));
     plan.stats.shadowMaps += static_cast<int>(shadows.maps.size());
 }
 

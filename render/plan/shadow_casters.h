@@ -20,6 +20,11 @@ struct CasterSource {
     bool isTransparent = true;  ///< textures may have holes, and models be seen through
 };
 
+/// DrawItem::shadowOffset of an open model: its mesh in a map differs from the drawn surface, by
+/// less than a texel's half and, where pixels do not follow their rays to the exact surface, by the
+/// error of the drawn mesh, `error` as a share of the distance.
+glm::vec2 shadowOffsetOf(const DrawItem& item, const Instance& instance, double error);
+
 /// Adds the maps to the plan, with all models that may cast a shadow into them; composePasses
 /// chooses those that do. Counts maps and triangles.
 void addShadowMaps(FramePlan& plan, const PlannedShadows& shadows, const CasterSource& source);

@@ -12,12 +12,14 @@
 namespace farol::render {
 namespace {
 
-constexpr double kTexelsPerPixel = 3.0;  // of the image's longer side
+constexpr double kTexelsPerPixel = 4.0;  // of the image's longer side
 constexpr int kMinSide = 512, kMaxMapSide = 4096;
 constexpr double kMaxTexels = 16 << 20;  // of all maps: 64 MiB
 constexpr double kMargin = 4.0;          // texels round what casts, for the filter
 /// Spots wider than this, degrees from their axis, have the maps of a point light.
 constexpr double kWidestSpot = 60.0;
+/// Lights farther from the scene's middle than so many of its radii see all of it in one map.
+constexpr double kFar = 1.5;
 
 struct Bounds {
     glm::dvec3 min{1e300}, max{-1e300};
@@ -55,7 +57,7 @@ class ShadowPlanner {
         : list_(list), view_(view), timeS_(timeS), isTransparent_(isTransparent), gl_(gl) {}
 
     PlannedShadows run(Diagnostics& findings) {
-        out_.ofLights.resize(list_.lights.size());
+        out_.ofLights.assign(list_.lights.size(), -1);
         if (list_.bounds.empty()) return std::move(out_);
         radius_ = 0.5 * glm::length(list_.bounds.max - list_.bounds.min);
         boxes_ = castingBoxes(list_, isTransparent_);
@@ -75,33 +77,42 @@ class ShadowPlanner {
 
   private:
     void addLight(std::size_t index) {
-        const std::vector<PlannedShadowMap> maps = mapsOf(list_.lights[index]);
+        PlannedShadowLight light;
+        std::vector<PlannedShadowMap> maps = mapsOf(list_.lights[index], light);
+        if (maps.empty()) return;
         if (out_.maps.size() + maps.size() > static_cast<std::size_t>(kMaxShadowMaps)) {
             ++leftOut_;
             return;
         }
-        out_.ofLights[index] = {static_cast<int>(out_.maps.size()), static_cast<int>(maps.size())};
+        double nearest = 1e300;  // one for all faces
+        for (const PlannedShadowMap& map : maps) nearest = std::min(nearest, map.light.nearest);
+        for (PlannedShadowMap& map : maps) map.light.nearest = nearest;
+        for (int& map : light.maps)
+            if (map >= 0) map += static_cast<int>(out_.maps.size());
+        out_.ofLights[index] = static_cast<int>(out_.lights.size());
+        out_.lights.push_back(light);
         out_.maps.insert(out_.maps.end(), maps.begin(), maps.end());
     }
 
     /// Empty where nothing casts a shadow that could be seen.
-    std::vector<PlannedShadowMap> mapsOf(const PlacedLight& placed) {
+    std::vector<PlannedShadowMap> mapsOf(const PlacedLight& placed, PlannedShadowLight& out) {
         const scene::Light& light = *placed.light;
         const bool isFixed = light.space == scene::LightSpace::camera;
         const glm::dmat3 worldFromEye = glm::transpose(view_.rotation);
         glm::dvec3 along = isFixed ? worldFromEye * placed.direction : placed.direction;
         const double length = glm::length(along);
         if (length > 0.0) along /= length;
+        const glm::dvec3 middle = 0.5 * (list_.bounds.min + list_.bounds.max);
         LightView seen;
         std::vector<PlannedShadowMap> maps;
         if (light.type == scene::LightType::directional) {
             if (length == 0.0) return maps;
-            seen.rotation = rotationAlong(-along);
-            seen.origin = 0.5 * (list_.bounds.min + list_.bounds.max);
+            seen.rotation = out.rotation = rotationAlong(-along);
+            seen.origin = middle;
             seen.min = glm::dvec2(-1e300);
             seen.max = glm::dvec2(1e300);
             casters_ = castersUnder(list_, boxes_, LightPlace{along, false});
-            add(seen, maps);
+            if (add(seen, maps)) out.maps[0] = 0;
             return maps;
         }
         seen.isPerspective = true;
@@ -109,24 +120,32 @@ class ShadowPlanner {
         // What a light at the eye leaves dark is what the eye does not see.
         if (glm::length(seen.origin - view_.eye) <= 1e-9 * radius_) return maps;
         casters_ = castersUnder(list_, boxes_, LightPlace{seen.origin, true});
-        const bool isSpot = light.type == scene::LightType::spot && length > 0.0;
-        if (isSpot && light.cutoffDeg <= kWidestSpot) {
-            seen.rotation = rotationAlong(along);
-            seen.max = glm::dvec2(std::tan(glm::radians(light.cutoffDeg)) * 1.02 + 1e-4);
+        const bool isSpot =
+            light.type == scene::LightType::spot && length > 0.0 && light.cutoffDeg < 180.0;
+        const double distance = glm::length(middle - seen.origin);
+        if ((isSpot && light.cutoffDeg <= kWidestSpot) || distance > kFar * radius_) {
+            // From afar all of the scene is within a cone, too.
+            const bool isNarrow = isSpot && light.cutoffDeg <= kWidestSpot;
+            seen.rotation = out.rotation =
+                rotationAlong(isNarrow ? along : (middle - seen.origin) / distance);
+            const double tangent =
+                isNarrow ? std::tan(glm::radians(light.cutoffDeg)) * 1.02 + 1e-4
+                         : radius_ / std::sqrt(distance * distance - radius_ * radius_);
+            seen.max = glm::dvec2(tangent);
             seen.min = -seen.max;
-            add(seen, maps);
+            if (add(seen, maps)) out.maps[0] = 0;
             return maps;
         }
-        for (int face = 0; face < 6; ++face) {
+        out.isCube = true;
+        for (std::size_t face = 0; face < 6; ++face) {
             glm::dvec3 forward(0.0);
-            forward[face / 2] = face % 2 ? -1.0 : 1.0;
-            if (isSpot && light.cutoffDeg < 180.0 && isBesideFace(along, forward, light.cutoffDeg))
-                continue;
+            forward[static_cast<int>(face / 2)] = face % 2 ? -1.0 : 1.0;
+            if (isSpot && isBesideFace(along, forward, light.cutoffDeg)) continue;
             seen.rotation = rotationAlong(forward);
-            // Beyond the face's edge by as much as its neighbour's filter reaches.
+            // Beyond the face's edge by more than the filter reaches.
             seen.max = glm::dvec2(1.0 + 4.0 * kMargin / kMinSide);
             seen.min = -seen.max;
-            add(seen, maps);
+            if (add(seen, maps)) out.maps[face] = static_cast<int>(maps.size()) - 1;
         }
         return maps;
     }
@@ -161,8 +180,9 @@ class ShadowPlanner {
         return bounds;
     }
 
-    /// Adds the map, cut to what casts and, where that is much less, to what is in view.
-    void add(LightView light, std::vector<PlannedShadowMap>& maps) {
+    /// Adds the map, cut to what casts and, where that is much less, to what is in view. Returns
+    /// false where nothing is left.
+    bool add(LightView light, std::vector<PlannedShadowMap>& maps) {
         PlannedShadowMap map;
         Bounds casting, receiving;
         std::vector<Bounds> each;
@@ -175,7 +195,7 @@ class ShadowPlanner {
             casting.add(bounds.min);
             casting.add(bounds.max);
         }
-        if (map.casters.empty()) return;
+        if (map.casters.empty()) return false;
         for (const CastingBox& box : boxes_) {
             if (!box.isThere) continue;
             const Bounds bounds = boundsOf(box.corners, light, reachesBehind);
@@ -185,9 +205,9 @@ class ShadowPlanner {
         }
         light.min = glm::max(light.min, glm::dvec2(glm::max(casting.min, receiving.min)));
         light.max = glm::min(light.max, glm::dvec2(glm::min(casting.max, receiving.max)));
-        if (light.min.x > light.max.x || light.min.y > light.max.y) return;
+        if (light.min.x > light.max.x || light.min.y > light.max.y) return false;
         cutToView(light);
-        if (light.min.x > light.max.x || light.min.y > light.max.y) return;
+        if (light.min.x > light.max.x || light.min.y > light.max.y) return false;
         light.nearest = 1e300;
         light.farthest = receiving.max.z;
         std::size_t kept = 0;
@@ -200,7 +220,7 @@ class ShadowPlanner {
             map.casters[kept++] = map.casters[k];
         }
         map.casters.resize(kept);
-        if (kept == 0) return;
+        if (kept == 0) return false;
         if (light.isPerspective) {
             light.nearest = std::max(0.5 * light.nearest, 1e-5 * radius_);
         } else {
@@ -210,6 +230,7 @@ class ShadowPlanner {
         }
         map.light = light;
         maps.push_back(std::move(map));
+        return true;
     }
 
     void cutToView(LightView& light) {
@@ -289,46 +310,41 @@ glm::dmat4 LightView::clip() const {
     return clip;
 }
 
-EyeShadowMap eyeShadowMap(const LightView& light, const ViewTransform& view) {
-    const glm::dmat3 lightFromEye = light.rotation * glm::transpose(view.rotation);
-    const glm::dvec3 offset = light.rotation * (view.eye - light.origin);
-    const auto rowOf = [&](int i) {
-        return glm::dvec4(lightFromEye[0][i], lightFromEye[1][i], lightFromEye[2][i], offset[i]);
-    };
-    const glm::dvec2 middle = 0.5 * (light.min + light.max), half = 0.5 * (light.max - light.min);
-    glm::dvec4 away = -rowOf(2);
-    std::array<glm::dvec4, 3> rows;
-    if (light.isPerspective) {
-        rows = {(rowOf(0) - middle.x * away) / half.x, (rowOf(1) - middle.y * away) / half.y, away};
-    } else {
-        rows = {rowOf(0) / half.x, rowOf(1) / half.y,
-                away * (2.0 / (light.farthest - light.nearest))};
-        rows[0].w -= middle.x / half.x;
-        rows[1].w -= middle.y / half.y;
-        rows[2].w -= (light.farthest + light.nearest) / (light.farthest - light.nearest);
+EyeShadowLight eyeShadowLight(const PlannedShadows& shadows, const PlannedShadowLight& light,
+                              const ViewTransform& view) {
+    EyeShadowLight out{};
+    std::array<float, 8> layers{};
+    const LightView* first = nullptr;
+    for (std::size_t face = 0; face < 6; ++face) {
+        out.faces[face] = glm::vec4(0.0F, 0.0F, 2.0F, 2.0F);
+        if (light.maps[face] < 0) continue;
+        const LightView& map = shadows.maps[static_cast<std::size_t>(light.maps[face])].light;
+        if (first == nullptr) first = &map;
+        const glm::dvec2 middle = 0.5 * (map.min + map.max), half = 0.5 * (map.max - map.min);
+        out.faces[face] = glm::vec4(glm::dvec4(1.0 / half, -middle / half));
+        layers[face] = static_cast<float>(light.maps[face]);
     }
-    const glm::dmat3 columns{glm::dvec3(rows[0]), glm::dvec3(rows[1]), glm::dvec3(rows[2])};
-    // The matrix has these as rows; its inverse transpose has those of the inverse's transpose.
-    const glm::dmat3 plane = glm::inverse(columns);  // of the transpose: columns are its rows' ends
-    const auto planeRow = [&](int i) {
-        return glm::vec4(glm::dvec4(plane[0][i], plane[1][i], plane[2][i], 0.0));
+    out.layers = {glm::vec4(layers[0], layers[1], layers[2], layers[3]),
+                  glm::vec4(layers[4], layers[5], 0.0F, 0.0F)};
+    if (first == nullptr) return out;
+    const glm::dmat3 turn = light.rotation * glm::transpose(view.rotation);
+    const glm::dvec3 offset = light.rotation * (view.eye - first->origin);
+    const auto row = [&](int i) {
+        return glm::vec4(glm::dvec4(turn[0][i], turn[1][i], turn[2][i], offset[i]));
     };
-    EyeShadowMap map{};
-    map.across = glm::vec4(rows[0]);
-    map.up = glm::vec4(rows[1]);
-    map.away = glm::vec4(rows[2]);
-    map.planeAcross = planeRow(0);
-    map.planeUp = planeRow(1);
-    map.planeAway = planeRow(2);
-    const double depthOfUnit = light.isPerspective ? 0.0 : 1.0 / (light.farthest - light.nearest);
-    map.facts = glm::vec4(light.isPerspective ? light.nearest : 0.0, light.texel, depthOfUnit, 0.0);
-    return map;
+    out.right = row(0);
+    out.up = row(1);
+    out.back = row(2);
+    const double range = first->farthest - first->nearest;
+    out.facts = first->isPerspective ? glm::vec4(first->nearest, 0.0, 0.0, light.isCube ? 1.0 : 0.0)
+                                     : glm::vec4(0.0, -1.0 / range, first->farthest / range, 0.0);
+    return out;
 }
 
-void PlannedShadows::mark(std::vector<EyeLight>& lights) const {
+void PlannedShadows::mark(std::vector<EyeLight>& list) const {
     for (std::size_t i = 0; i < ofLights.size(); ++i) {
-        lights[i].diffuse.w = static_cast<float>(ofLights[i].count);
-        lights[i].ambient.w = static_cast<float>(ofLights[i].first);
+        list[i].diffuse.w = ofLights[i] < 0 ? 0.0F : 1.0F;
+        list[i].ambient.w = static_cast<float>(std::max(0, ofLights[i]));
     }
 }
 

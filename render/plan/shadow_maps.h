@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <glm/glm.hpp>
 #include <vector>
 
@@ -30,35 +31,43 @@ struct LightView {
     glm::dmat4 clip() const;
 };
 
-/// A map as shaders read it (std140). Map space: -1 to 1 across and up, and the distance along the
-/// light; across and up are still to be divided by that in a perspective. Directional lights have
-/// -1 to 1 there too, for depths from 1 to 0.
-struct EyeShadowMap {
-    glm::vec4 across, up, away;                 ///< rows of mapFromEye
-    glm::vec4 planeAcross, planeUp, planeAway;  ///< rows of its inverse transpose, 3x3
-    /// x: depth at distance 1 of a perspective, 0: directional; y: LightView::texel; z: depth of a
-    /// unit of distance where it is directional.
-    glm::vec4 facts;
-};
-
-EyeShadowMap eyeShadowMap(const LightView& light, const ViewTransform& view);
-
 struct PlannedShadowMap {
     LightView light;
     std::vector<std::size_t> casters;  ///< indices into InstanceList::instances
 };
 
+/// The maps of a light. A cube has the faces +X, -X, +Y, -Y, +Z, -Z of world space, other lights
+/// the first alone.
+struct PlannedShadowLight {
+    glm::dmat3 rotation{1.0};  ///< that of its map, or of a cube
+    bool isCube = false;
+    std::array<int, 6> maps{-1, -1, -1, -1, -1, -1};  ///< of PlannedShadows::maps, -1: none
+};
+
 struct PlannedShadows {
-    struct Range {
-        int first = 0, count = 0;  ///< of `maps`
-    };
-    std::vector<Range> ofLights;  ///< of InstanceList::lights
+    std::vector<int> ofLights;  ///< of InstanceList::lights: indices into `lights`, -1: none
+    std::vector<PlannedShadowLight> lights;
     std::vector<PlannedShadowMap> maps;
     int side = 0;  ///< of a map, texels
 
-    /// Refers the lights of the list to their maps.
-    void mark(std::vector<EyeLight>& lights) const;
+    /// Refers the lights of the list to theirs.
+    void mark(std::vector<EyeLight>& list) const;
 };
+
+/// What shaders know of a light's maps (std140). A place is turned into light space; in a cube into
+/// that of its face; divided by the distance along the light in a perspective; scaled and moved to
+/// -1..1.
+struct EyeShadowLight {
+    glm::vec4 right, up, back;  ///< rows of lightFromEye
+    /// Perspective: x is the depth at distance 1. Directional: x is 0, the depth at distance d is
+    /// y d + z. w: 1 for a cube.
+    glm::vec4 facts;
+    std::array<glm::vec4, 6> faces;   ///< scale and offset; scale 0: no map
+    std::array<glm::vec4, 2> layers;  ///< of the faces
+};
+
+EyeShadowLight eyeShadowLight(const PlannedShadows& shadows, const PlannedShadowLight& light,
+                              const ViewTransform& view);
 
 /// Chooses the maps of a frame. Maps depend on the scene alone where that gives at least half of
 /// the resolution of maps fitted to the view, so that they can be kept while a camera moves.

@@ -159,3 +159,69 @@ TEST_CASE("shadows of each shape on a floor are those of the ray caster") {
             check(std::string(names[i]) + " " + light.name,
                   document(light.xml, kFloor + shapes[i]));
 }
+
+TEST_CASE("shadows on curved receivers, thin walls and what stands in contact") {
+    const std::string bowl = group("<rotate angle=\"180\" x=\"1\"/><translate y=\"-1\"/>",
+                                   model("dome 1", "twoSided=\"true\""));
+    const std::string wall = group("<translate x=\"-0.3\" y=\"0.6\"/>", model("box 0.01 1.2 1.6"));
+    const std::string sheet =
+        group("<translate x=\"0.4\" y=\"0.5\"/><rotate angle=\"90\" z=\"1\"/>", model("plane 1"));
+    const std::string stack = group("<translate y=\"0.25\"/>", model("box 1.4 0.5 1.4")) +
+                              group("<translate y=\"0.75\"/>", model("box 1 0.5 1")) +
+                              group("<translate y=\"1.4\"/>", model("sphere 0.4"));
+    const std::string balls = group("<translate x=\"-0.5\" y=\"0.5\"/>", model("sphere 0.5")) +
+                              group("<translate x=\"0.5\" y=\"0.5\"/>", model("sphere 0.5")) +
+                              group("<translate y=\"0.3\" z=\"0.75\"/>", model("sphere 0.3"));
+    const std::string cave = group("<translate y=\"1\"/>", model("torus 1 0.6")) +
+                             group("<translate y=\"0.2\"/>", model("sphere 0.2"));
+    const std::string saturn =
+        group("<translate y=\"1\"/>", model("sphere 0.7")) +
+        group("<translate y=\"1\"/><rotate angle=\"20\" x=\"1\"/>", model("ring 0.9 1.5"));
+    const std::string room =
+        group("<translate y=\"1.5\" z=\"-1\"/><rotate angle=\"90\" x=\"1\"/>", model("plane 6")) +
+        group("<translate y=\"0.5\" z=\"-0.5\"/>", model("cone 0.3 1"));
+    const std::pair<const char*, const std::string*> rows[] = {
+        {"wall of 0.01", &wall},     {"single sheet", &sheet},
+        {"stack", &stack},           {"balls in contact", &balls},
+        {"ball in a torus", &cave},  {"planet and ring", &saturn},
+        {"corner of a room", &room}, {"bowl", &bowl}};
+    for (const auto& [name, groups] : rows)
+        for (const Light& light : lights())
+            check(std::string(name) + " " + light.name, document(light.xml, kFloor + *groups));
+}
+
+TEST_CASE("shadows do not depend on the place and the size of the scene") {
+    const std::string content = kFloor + group("<translate y=\"0.8\"/>", model("sphere 0.8")) +
+                                group("<translate x=\"1.4\" y=\"0.4\"/>", model("box 0.8"));
+    for (const double size : {0.01, 1.0, 100.0})
+        for (const double away : {0.0, 1e3}) {
+            if (size < 1.0 && away > 0.0) continue;  // positions of the document are decimals
+            const auto number = [&](double value) {
+                char text[32];
+                std::snprintf(text, sizeof text, "%.9g", value);
+                return std::string(text);
+            };
+            const auto place = [&](const char* x, const char* y, const char* z, double at,
+                                   double up, double to) {
+                return std::string(x) + "=\"" + number(away + size * at) + "\" " + y + "=\"" +
+                       number(size * up) + "\" " + z + "=\"" + number(-away + size * to) + "\"";
+            };
+            const std::string camera = "<position " + place("x", "y", "z", 2.5, 2.6, 4.2) +
+                                       "/><lookAt " + place("x", "y", "z", 0.0, 0.4, 0.0) +
+                                       "/><projection fov=\"45\" near=\"" + number(0.05 * size) +
+                                       "\" far=\"" + number(200.0 * size) + "\"/>";
+            const std::string lamp =
+                "<light type=\"point\" " + place("posX", "posY", "posZ", 1.7, 2.6, 1.1) + "/>";
+            const std::string spot = "<light type=\"spot\" " +
+                                     place("posX", "posY", "posZ", 3.0, 4.5, 2.0) +
+                                     R"( dirX="-3" dirY="-4.5" dirZ="-2" cutoff="32"/>)";
+            for (const std::string& light : {lights()[0].xml, lights()[1].xml, spot, lamp})
+                check("size " + number(size) + " at " + number(away) + light.substr(12, 12),
+                      document(light,
+                               "<group><transform><translate " +
+                                   place("x", "y", "z", 0.0, 0.0, 0.0) + "/><scale x=\"" +
+                                   number(size) + "\" y=\"" + number(size) + "\" z=\"" +
+                                   number(size) + "\"/></transform>" + content + "</group>",
+                               camera));
+        }
+}

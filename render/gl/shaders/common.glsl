@@ -53,8 +53,8 @@ bool isFinite(vec3 v) {
 #endif
 
 #if defined(SHADOWED) && defined(FRAGMENT)
-// The share of a light that reaches the pixel, 0..1, by its `count` maps from `first` on.
-float shareOfLight(int first, int count, vec3 position);
+// The shares of the first lights that reach the pixel, 0..1; set before shade().
+float shares[SHADOWED];
 #endif
 
 // normal: unit. primary holds all but the specular part, which goes to secondary.
@@ -89,9 +89,7 @@ void shade(vec3 position, vec3 normal, out vec3 primary, out vec3 secondary) {
         float lambert = dot(normal, toLight);
 #if defined(SHADOWED) && defined(FRAGMENT)
         primary += strength * materialAmbient * lights[i].ambient.rgb;
-        int maps = int(lights[i].diffuse.w);
-        if (maps > 0 && lambert > 0.0 && strength > 0.0)
-            strength *= shareOfLight(int(lights[i].ambient.w), maps, position);
+        if (i < SHADOWED) strength *= shares[i];
         primary += strength * max(lambert, 0.0) * materialDiffuse * lights[i].diffuse.rgb;
 #else
         primary += strength * (materialAmbient * lights[i].ambient.rgb +

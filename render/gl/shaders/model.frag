@@ -171,6 +171,9 @@ void main() {
     if (cap != 0.0) receiverOffset = vec2(0.0);
 #endif
 #endif
+#ifdef SHADOWED
+    findShares(position);
+#endif
     shade(position, shadingNormal, primary, secondary);
     finish(primary, secondary, modulated, extra);
 #endif

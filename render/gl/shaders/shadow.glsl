@@ -1,12 +1,12 @@
 // Shadows by maps of the depths that lights see (render/plan/shadow_maps.h).
 #ifdef SHADOWED
-struct ShadowMap {
-    vec4 across, up, away;                 // rows of mapFromEye
-    vec4 planeAcross, planeUp, planeAway;  // rows of its inverse transpose
-    vec4 facts;  // x: depth at distance 1 of a perspective, or 0; y: a texel; z: depth of a unit
+struct ShadowLight {
+    vec4 right, up, back;  // rows of lightFromEye
+    vec4 facts;            // depth at distance 1, or 0; depth of a unit and at distance 0; is a cube
+    vec4 faces[6];         // scale, offset
+    vec4 layers[2];
 };
-const int kMaxShadowMaps = 64;
-layout(std140, binding = 1) uniform ShadowMaps { ShadowMap shadowMaps[kMaxShadowMaps]; };
+layout(std140, binding = 1) uniform ShadowLights { ShadowLight shadowLights[SHADOWED]; };
 layout(binding = 3) uniform sampler2DArray shadowDepths;  // reversed; beyond an edge 0: nothing
 uniform vec2 shadowOffset;  // texels, and share of the distance
 
@@ -14,60 +14,99 @@ uniform vec2 shadowOffset;  // texels, and share of the distance
 vec3 receiverNormal;
 vec2 receiverOffset = shadowOffset;
 
+// Weighs the four texels round `corner` that are no nearer to the light than the receiver's plane,
+// whose depth at texel (0, 0) is `depth`, and its change by a texel `slope`. Weights are products of
+// `across` and `up`.
+float litTexels(vec2 corner, vec2 size, float layer, float depth, vec2 slope, vec2 across, vec2 up) {
+    vec4 stored = textureGather(shadowDepths, vec3(corner / size, layer));
+    vec4 expected = depth + dot(slope, corner) -
+                    vec4(slope.x, 0.0, slope.y, slope.x + slope.y);  // in the order gathered
+    vec4 weights = vec4(across.x * up.y, across.y * up.y, across.y * up.x, across.x * up.x);
+    return dot(weights, vec4(lessThanEqual(stored, max(expected, 0.0))));
+}
+
 // Percentage-closer filter of 3 x 3 texels (Reeves, Salesin, Cook 1987): each of 4 x 4 texels is
 // compared with the depth of the receiver's tangent plane at the texel's own middle, so that no
-// slope needs a bias.
-float shareOfLight(int first, int count, vec3 position) {
+// slope needs a bias. `index` is a constant: llvmpipe reads others for each pixel. It has no loops,
+// which take llvmpipe several times as long.
+#define FIND_SHARE(index) shares[index] = shareOfLight(shadowLights[index], position)
+float shareOfLight(ShadowLight light, vec3 position) {
     vec2 size = vec2(textureSize(shadowDepths, 0).xy);
     float away = length(position);
-    int map = -1;
-    vec3 place = vec3(0.0, 0.0, 1.0);
-    vec2 at = vec2(0.0);
-    for (int i = first; i < first + count; ++i) {
-        float near = shadowMaps[i].facts.x;
-        vec4 eye = vec4(position, 1.0);
-        float texel = shadowMaps[i].facts.y * (near > 0.0 ? dot(shadowMaps[i].away, eye) : 1.0);
-        eye.xyz += (receiverOffset.x * texel + receiverOffset.y * away) * receiverNormal;
-        vec3 p = vec3(dot(shadowMaps[i].across, eye), dot(shadowMaps[i].up, eye),
-                      dot(shadowMaps[i].away, eye));
-        vec2 q = near > 0.0 ? p.xy / max(p.z, 1e-30) : p.xy;
-        // Within the margin of a map nothing casts a shadow, or the next face of its cube has it.
-        bool isInside = max(abs(q.x), abs(q.y)) < 1.0 - 3.0 / size.x;
-        if (isInside && (near == 0.0 || p.z > 0.0)) {
-            map = i;
-            place = p;
-            at = q;
+    bool isPerspective = light.facts.x > 0.0;
+    mat4x3 lightFromEye = transpose(mat3x4(light.right, light.up, light.back));
+    vec3 place = lightFromEye * vec4(position, 1.0);
+    vec3 normal = mat3(lightFromEye) * receiverNormal;
+    vec4 face = light.faces[0];
+    float layer = light.layers[0].x;
+#ifdef SHADOW_CUBE
+    if (light.facts.w > 0.0) {
+        vec3 reach = abs(place);
+        if (reach.x >= reach.y && reach.x >= reach.z) {
+            bool isFirst = place.x > 0.0;
+            face = isFirst ? light.faces[0] : light.faces[1];
+            layer = isFirst ? light.layers[0].x : light.layers[0].y;
+            vec3 turn = isFirst ? vec3(1.0, 1.0, -1.0) : vec3(-1.0, 1.0, 1.0);
+            place = turn * place.zyx;
+            normal = turn * normal.zyx;
+        } else if (reach.y >= reach.z) {
+            bool isFirst = place.y > 0.0;
+            face = isFirst ? light.faces[2] : light.faces[3];
+            layer = isFirst ? light.layers[0].z : light.layers[0].w;
+            vec3 turn = isFirst ? vec3(-1.0, -1.0, -1.0) : vec3(1.0, -1.0, 1.0);
+            place = turn * place.xzy;
+            normal = turn * normal.xzy;
+        } else {
+            bool isFirst = place.z > 0.0;
+            face = isFirst ? light.faces[4] : light.faces[5];
+            layer = isFirst ? light.layers[1].x : light.layers[1].y;
+            vec3 turn = isFirst ? vec3(-1.0, 1.0, -1.0) : vec3(1.0, 1.0, 1.0);
+            place = turn * place;
+            normal = turn * normal;
         }
     }
-    int known = max(map, 0);
-    vec4 facts = shadowMaps[known].facts;
-    bool isPerspective = facts.x > 0.0;
-    vec3 plane = vec3(dot(shadowMaps[known].planeAcross.xyz, receiverNormal),
-                      dot(shadowMaps[known].planeUp.xyz, receiverNormal),
-                      dot(shadowMaps[known].planeAway.xyz, receiverNormal));
+#endif
+    float along = isPerspective ? max(-place.z, 1e-30) : 1.0;
+    float texel = 2.0 * along / (size.x * max(min(face.x, face.y), 1e-30));
+    place += (receiverOffset.x * texel + receiverOffset.y * away) * normal;
+    if (isPerspective) along = max(-place.z, 1e-30);
+    vec2 perTexel = 2.0 / (size * max(face.xy, 1e-30));  // in units of place / along
+    vec2 texels = ((place.xy / along * face.xy + face.zw) * 0.5 + 0.5) * size - 0.5;
     // Planes are planes in the map as well: depth is linear across and up.
-    float facing = isPerspective ? dot(plane, place) : 2.0 * plane.z;
-    facing = abs(facing) < 1e-12 ? 1e-12 : facing;
-    vec2 slope = plane.xy * ((isPerspective ? facts.x : 1.0) / facing) * 2.0 / size;
-    float depth = isPerspective ? facts.x / place.z : 0.5 - 0.5 * place.z;
+    float facing = isPerspective ? dot(normal, place) : normal.z;
+    facing = abs(facing) < 1e-20 ? 1e-20 : facing;
+    float unit = isPerspective ? light.facts.x / (along * along) : -light.facts.y;  // of distance
+    vec2 slope = normal.xy * perTexel *
+                 (isPerspective ? light.facts.x / facing : light.facts.y / facing);
+    float depth = isPerspective ? light.facts.x / along : light.facts.z - light.facts.y * place.z;
     // Rounding: of places, of depths, and of the rasteriser's grid.
-    float unit = isPerspective ? depth / place.z : facts.z;
     depth += 4e-7 * away * unit + (isPerspective ? 2e-6 * depth : 2e-6) +
              (abs(slope.x) + abs(slope.y)) / 32.0;
-    vec2 texels = (at * 0.5 + 0.5) * size - 0.5;
+    depth -= dot(slope, texels);
     vec2 base = floor(texels), part = texels - base;
-    float sum = 0.0;
-    for (int i = 0; i < 4; ++i) {
-        vec2 corner = base + vec2(i & 1, i >> 1) * 2.0;  // of four texels
-        vec4 stored = textureGather(shadowDepths, vec3(corner / size, float(known)));
-        float lowest = depth + dot(slope, corner - 1.0 - texels);
-        vec4 expected =
-            lowest + vec4(slope.y, slope.x + slope.y, slope.x, 0.0);  // in textureGather's order
-        vec2 across = (i & 1) == 0 ? vec2(1.0 - part.x, 1.0) : vec2(1.0, part.x);
-        vec2 up = (i >> 1) == 0 ? vec2(1.0 - part.y, 1.0) : vec2(1.0, part.y);
-        vec4 weights = vec4(across.x * up.y, across.y * up.y, across.y * up.x, across.x * up.x);
-        sum += dot(weights, vec4(lessThanEqual(stored, max(expected, 0.0))));
-    }
-    return map < 0 ? 1.0 : sum / 9.0;
+    vec2 left = vec2(1.0 - part.x, 1.0), right = vec2(1.0, part.x);
+    vec2 below = vec2(1.0 - part.y, 1.0), above = vec2(1.0, part.y);
+    float lit = litTexels(base, size, layer, depth, slope, left, below) +
+                litTexels(base + vec2(2.0, 0.0), size, layer, depth, slope, right, below) +
+                litTexels(base + vec2(0.0, 2.0), size, layer, depth, slope, left, above) +
+                litTexels(base + vec2(2.0, 2.0), size, layer, depth, slope, right, above);
+    // Behind the light, or beyond its map, nothing casts a shadow.
+    return (isPerspective && -place.z <= 0.0) || face.x == 0.0 ? 1.0 : lit / 9.0;
+}
+
+void findShares(vec3 position) {
+    FIND_SHARE(0);
+#if SHADOWED > 1
+    FIND_SHARE(1);
+#endif
+#if SHADOWED > 2
+    FIND_SHARE(2);
+#endif
+#if SHADOWED > 3
+    FIND_SHARE(3);
+#endif
+#if SHADOWED > 4
+    for (int i = 4; i < SHADOWED; ++i) FIND_SHARE(i);
+#endif
 }
 #endif

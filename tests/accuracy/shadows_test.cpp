@@ -160,6 +160,24 @@ TEST_CASE("shadows of each shape on a floor are those of the ray caster") {
                   document(light.xml, kFloor + shapes[i]));
 }
 
+TEST_CASE("shadows are as right with several samples a pixel") {
+    // Pixels that two triangles share are lit at samples off their middle.
+    const std::string content = group("<translate x=\"-0.6\" y=\"0.6\"/>", model("sphere 0.6")) +
+                                group("<translate x=\"0.8\" y=\"0.5\"/>", model("box 1 1 0.8")) +
+                                group("<translate y=\"0.5\" z=\"-1.2\"/>", model("cylinder 0.4 1"));
+    for (const int samples : {4, 8, 16})
+        for (const Light& light : lights()) {
+            const std::string title =
+                "aa=" + std::to_string(samples) + " " + std::string(light.name);
+            const Figures figures =
+                compare(document(light.xml, kFloor + content), options(samples));
+            print(title, figures);
+            INFO(title);
+            CHECK(figures.share() >= kLeastShare);
+            CHECK(figures.isolated <= figures.compared / 2000);
+        }
+}
+
 TEST_CASE("shadows on curved receivers, thin walls and what stands in contact") {
     const std::string bowl = group("<rotate angle=\"180\" x=\"1\"/><translate y=\"-1\"/>",
                                    model("dome 1", "twoSided=\"true\""));

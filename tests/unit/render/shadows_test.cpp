@@ -1,0 +1,266 @@
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <map>
+
+#include "generator/registry.h"
+#include "image/image_file.h"
+#include "render/gl/painter.h"
+#include "render/plan/cost.h"
+#include "render/plan/quality.h"
+#include "render/renderer.h"
+#include "scene/read/reader.h"
+#include "tests/support/plan_scene.h"
+
+// Shadow maps: what casts, what receives, and what they leave as it was. Their places are compared
+// with the ray caster by the tests of accuracy.
+using namespace farol;
+using render::Layer;
+using scene::Shadows;
+
+namespace {
+
+constexpr int kSide = 96;
+
+struct Drawn {
+    image::Image image;
+    render::Picture picture;
+
+    bool has(const std::string& code) const {
+        return std::any_of(picture.diagnostics.begin(), picture.diagnostics.end(),
+                           [&](const Diagnostic& one) { return one.code == code; });
+    }
+    /// Of the pixel that shows a place on the floor; seen from above, 8 units across.
+    int level(double x, double z) const {
+        const auto at = [](double v) { return static_cast<std::size_t>((v / 8.0 + 0.5) * kSide); };
+        return image.pixels[4 * (at(z) * kSide + at(x))];
+    }
+};
+
+render::Job jobOf(const std::string& xml, const std::map<std::string, std::string>& files = {}) {
+    render::Job job;
+    job.xml = xml;
+    job.assets = std::make_shared<scene::BundleAssets>(files);
+    job.options.width = job.options.height = kSide;
+    job.options.samples = 1;
+    return job;
+}
+
+Drawn draw(const render::Job& job) {
+    Drawn drawn;
+    drawn.picture = render::Renderer().draw(job, drawn.image);
+    return drawn;
+}
+
+const std::string kHighSun = R"(<light type="directional" dirX="1" dirY="1"/>)";
+
+/// A white floor from above: 8 x 8 units of it in view.
+std::string floorWith(const std::string& models, const std::string& lights = kHighSun,
+                      const std::string& render = R"(shadows="map")") {
+    return "<world><render " + render +
+           R"(/><camera><position y="40"/><lookAt/><up z="-1"/>
+           <projection fov="11.421" near="1" far="100"/></camera><lights>)" +
+           lights + R"(</lights><group><models><model command="plane 30"><color>
+           <diffuse R="255" G="255" B="255"/><ambient R="0" G="0" B="0"/></color></model></models>
+           </group>)" +
+           models + "</world>";
+}
+
+std::string at(const std::string& place, const std::string& model) {
+    return "<group><transform><translate " + place + "/></transform><models>" + model +
+           "</models></group>";
+}
+
+const std::string kBall = R"(<model command="sphere 0.5"/>)";
+
+}  // namespace
+
+TEST_CASE("a scene without shadows has the same bytes, asked for or not, with the option off") {
+    const std::string ball = at(R"(y="2")", kBall);
+    const Drawn never = draw(jobOf(floorWith(ball, kHighSun, "")));
+    CHECK(draw(jobOf(floorWith(ball, kHighSun, R"(shadows="off")"))).image == never.image);
+    render::Job job = jobOf(floorWith(ball));
+    const Drawn shadowed = draw(job);
+    CHECK(shadowed.image != never.image);
+    job.options.shadows = Shadows::off;  // the request wins
+    const Drawn off = draw(job);
+    CHECK(off.image == never.image);
+    CHECK(off.picture.stats.shadowMaps == 0);
+    CHECK(shadowed.picture.stats.shadowMaps == 1);
+    CHECK(shadowed.picture.stats.shadowTriangles > 100);
+    CHECK(shadowed.picture.stats.drawCalls == never.picture.stats.drawCalls);
+}
+
+TEST_CASE("a ball's shadow lies where the sun throws it, also from outside the view") {
+    const Drawn inside = draw(jobOf(floorWith(at(R"(x="2" y="2")", kBall))));
+    CHECK(inside.level(0, 0) == 0);
+    CHECK(inside.level(0, 1.5) > 150);
+    const Drawn outside = draw(jobOf(floorWith(at(R"(x="9" y="9")", kBall))));
+    CHECK(outside.level(0, 0) == 0);
+    CHECK(outside.level(1.5, 0) > 150);
+}
+
+TEST_CASE("ambient light and emission are not shadowed") {
+    const std::string light =
+        R"(<light type="directional" dirX="1" dirY="1" ambR="0.5" ambG="0.5" ambB="0.5"/>)";
+    std::string xml = floorWith(at(R"(x="2" y="2")", kBall), light);
+    const std::string black = R"(<ambient R="0" G="0" B="0"/>)";
+    xml.replace(xml.find(black), black.size(), R"(<ambient R="0" G="0" B="0"/>
+        <emissive R="40" G="40" B="40"/>)");
+    CHECK(draw(jobOf(xml)).level(0, 0) == 40);
+    xml.replace(xml.find(black), black.size(), R"(<ambient R="51" G="51" B="51"/>)");
+    CHECK(draw(jobOf(xml)).level(0, 0) > 60);
+}
+
+TEST_CASE("a lamp within a ball shines out of it, and sheets stop light from either side") {
+    const std::string lamp = R"(<light type="point" posY="2"/>)";
+    CHECK(draw(jobOf(floorWith(at(R"(y="2")", kBall), lamp))).level(1, 0) > 150);
+    for (const char* turn : {"0", "180"}) {
+        const std::string sheet = std::string(
+                                      "<group><transform><translate x=\"2\" y=\"2\"/>"
+                                      "<rotate angle=\"") +
+                                  turn +
+                                  "\" x=\"1\"/></transform><models><model command=\"plane 1\"/>"
+                                  "</models></group>";
+        CHECK(draw(jobOf(floorWith(sheet))).level(0, 0) == 0);
+    }
+}
+
+TEST_CASE("a light at the eye casts no shadow that could be seen, and needs no map") {
+    const std::string ball = at(R"(x="1" y="2")", kBall);
+    const std::string torch = R"(<light type="point" space="camera"/>)";
+    const Drawn drawn = draw(jobOf(floorWith(ball, torch)));
+    CHECK(drawn.picture.stats.shadowMaps == 0);
+    const std::string beside = R"(<light type="point" posX="30" space="camera"/>)";
+    CHECK(draw(jobOf(floorWith(ball, beside))).picture.stats.shadowMaps > 0);
+}
+
+TEST_CASE("models cast by the holes of their textures, and not where they are seen through") {
+    image::Image half{32, 32, {}};  // its left half is a hole
+    for (int i = 0; i < 32 * 32; ++i)
+        for (const int value : {255, 255, 255, i % 32 < 16 ? 0 : 255})
+            half.pixels.push_back(static_cast<std::uint8_t>(value));
+    const std::map<std::string, std::string> files{{"half.png", image::encodePng(half)}};
+    const std::string card =
+        at(R"(x="2" y="2")", R"(<model command="plane 2"><texture file="half.png"/></model>)");
+    const Drawn cut = draw(jobOf(floorWith(card), files));
+    const int left = cut.level(-0.5, 0), right = cut.level(0.5, 0);
+    CHECK(std::min(left, right) == 0);
+    CHECK(std::max(left, right) > 150);
+    render::Job solid = jobOf(floorWith(card), files);
+    solid.options.transparency = scene::Transparency::off;
+    const Drawn whole = draw(solid);
+    CHECK(whole.level(-0.5, 0) == 0);
+    CHECK(whole.level(0.5, 0) == 0);
+    const std::string glass =
+        at(R"(x="2" y="2")", R"(<model command="sphere 0.5" opacity="0.5"/>)");
+    CHECK(draw(jobOf(floorWith(glass))).level(0, 0) > 150);
+}
+
+TEST_CASE("layers are those of the scene without shadows") {
+    for (const Layer layer : {Layer::depth, Layer::normal, Layer::id}) {
+        render::Job job = jobOf(floorWith(at(R"(x="2" y="2")", kBall)));
+        job.options.layer = layer;
+        const Drawn on = draw(job);
+        CHECK(on.picture.stats.shadowMaps == 0);
+        job.options.shadows = Shadows::off;
+        CHECK(on.image == draw(job).image);
+    }
+}
+
+TEST_CASE("shadows are the same at any samples, and with surfaces sorted in each pixel") {
+    for (const int samples : {1, 2, 4, 8, 16})
+        for (const auto mode : {scene::Transparency::on, scene::Transparency::exact}) {
+            CAPTURE(samples);
+            render::Job job = jobOf(floorWith(
+                at(R"(x="2" y="2")", kBall) +
+                at(R"(y="0.01" z="2")",
+                   R"(<model command="plane 1" opacity="0.5"><color><diffuse R="255" G="255"
+                      B="255"/></color></model>)") +
+                at(R"(x="2" y="2" z="2")", kBall)));
+            job.options.samples = samples;
+            job.options.transparency = mode;
+            const Drawn drawn = draw(job);
+            CHECK(drawn.level(0, 0) == 0);
+            CHECK(drawn.level(0, 1) > 150);
+            CHECK(drawn.level(0, 2) < 60);  // on the pane, and on the floor behind it
+        }
+}
+
+TEST_CASE("other shadings have no shadows, with a warning that names the fix") {
+    const std::string ball = at(R"(x="2" y="2")", kBall);
+    const Drawn gouraud =
+        draw(jobOf(floorWith(ball, kHighSun, R"(shadows="map" shading="gouraud")")));
+    CHECK(gouraud.has("scene.shadows"));
+    CHECK(gouraud.picture.stats.shadowMaps == 0);
+    CHECK(draw(jobOf(floorWith(ball, ""))).has("scene.shadows"));
+    CHECK_FALSE(draw(jobOf(floorWith(ball))).has("scene.shadows"));
+}
+
+TEST_CASE("lights over the limit of maps shine without shadows, with a warning") {
+    std::string suns;
+    for (int i = 0; i < render::kMaxShadowMaps + 2; ++i)
+        suns += R"(<light type="directional" dirX="1" dirY="1" diffR="0.01"/>)";
+    const Drawn drawn = draw(jobOf(floorWith(at(R"(x="2" y="2")", kBall), suns)));
+    CHECK(drawn.picture.stats.shadowMaps == render::kMaxShadowMaps);
+    CHECK(drawn.has("limit.shadows"));
+}
+
+TEST_CASE("maps are kept while nothing that they show changes, with the same image") {
+    const auto read = [](const std::string& ball) {
+        scene::Scene scene =
+            scene::read(floorWith(at(ball, kBall)), {}, scene::BundleAssets()).scene;
+        Diagnostics findings;
+        generator::resolve(scene, scene::BundleAssets(), findings);
+        return scene;
+    };
+    const scene::Scene still = read(R"(x="2" y="2")"), moved = read(R"(x="2" y="2.5")");
+    render::MeshLibrary meshes(std::size_t{64} << 20);
+    render::gl::Painter painter(render::gl::createContext(render::GlSource::automatic));
+    const auto paint = [&](render::gl::Painter& by, const scene::Scene& scene, double height) {
+        render::PictureOptions options;
+        options.width = options.height = kSide;
+        options.eye = glm::dvec3(0.0, height, 0.5);
+        render::FramePlan plan = support::planScene(scene, options, scene::BundleAssets(), meshes);
+        image::Image image;
+        render::gl::Painter::Timings timings;
+        Diagnostics findings;
+        by.draw(
+            plan, [](const render::TextureRef&) { return render::UndecodedTexture(); }, image,
+            timings, findings);
+        return image;
+    };
+    paint(painter, still, 40.0);
+    CHECK(painter.shadowMapsDrawn() == 1);
+    const image::Image kept = paint(painter, still, 30.0);
+    CHECK(painter.shadowMapsDrawn() == 1);
+    render::gl::Painter fresh(render::gl::createContext(render::GlSource::automatic));
+    CHECK(paint(fresh, still, 30.0) == kept);
+    paint(painter, moved, 30.0);
+    CHECK(painter.shadowMapsDrawn() == 2);
+}
+
+TEST_CASE("the estimates of cost and time count shadows") {
+    const scene::Scene scene = [] {
+        scene::Scene read =
+            scene::read(floorWith(at(R"(x="2" y="2")", kBall)), {}, scene::BundleAssets()).scene;
+        Diagnostics findings;
+        generator::resolve(read, scene::BundleAssets(), findings);
+        return read;
+    }();
+    render::MeshLibrary meshes(std::size_t{64} << 20);
+    const auto cost = [&](Shadows shadows) {
+        render::PictureOptions options;
+        options.width = options.height = kSide;
+        options.shadows = shadows;
+        return render::estimateCost(
+                   support::planScene(scene, options, scene::BundleAssets(), meshes))
+            .total();
+    };
+    CHECK(cost(Shadows::map) > 1.2 * cost(Shadows::off));
+    render::FrameLoad load;
+    load.pixels = 1e6;
+    load.lights = 1.0;
+    const double without = render::expectedMs(load, 4, 0.25);
+    load.shadowLights = load.shadowMaps = 1.0;
+    CHECK(render::expectedMs(load, 4, 0.25) > without);
+}

@@ -65,8 +65,17 @@ out vec4 result;
 
 void main() {
 #ifdef SURFACE
+    rayStart = unitPosition;
+    rayStep = unitRay;
+#if defined(SHADOWED) && defined(EXACT_DEPTH)
+    // llvmpipe takes attributes at a sample over the w of the pixel's middle; depth is the sample's.
+    float w = clipFromView[3].z / (gl_FragCoord.z + clipFromView[2].z);
+    float atSample = w / max(-positionView.z, 1e-30);
+    rayStart *= atSample;
+    rayStep *= atSample;
+#endif
     float along = toSurface();
-    vec3 unit = unitPosition + along * unitRay;
+    vec3 unit = rayStart + along * rayStep;
     vec3 normal = normalFromObject * surfaceGradient(unit);
 #ifdef EXACT_DEPTH
     float step = along;
@@ -89,7 +98,7 @@ void main() {
 #endif
 #endif
 #if defined(TEXTURED) && defined(SURFACE)
-    vec3 gradient = surfaceGradient(unit), reach = (1.0 + along) * unitRay;
+    vec3 gradient = surfaceGradient(unit), reach = (1.0 + along) * rayStep;
     vec3 right = tangentChange((1.0 + along) * CHANGE_RIGHT(unitRay), reach, gradient);
     vec3 up = tangentChange((1.0 + along) * CHANGE_UP(unitRay), reach, gradient);
 #if defined(MAPPING_SPHERE)
@@ -159,9 +168,12 @@ void main() {
     vec3 shadingNormal = unitOr(normal, vec3(0.0, 0.0, 1.0));
 #ifdef SHADOWED
     receiverNormal = shadingNormal;
+#ifdef EXACT_DEPTH
+    position *= atSample;
+#endif
 #if !defined(SURFACE) || defined(SURFACE_PROFILE)
     vec3 face = unitOr(cross(dFdx(facePosition), dFdy(facePosition)), shadingNormal);
-    // llvmpipe takes a covered sample's attributes over the w of the pixel's middle: back to the face.
+    // An attribute at a covered sample likewise: back to the face.
     float facing = dot(face, position);
     position *= abs(facing) > 1e-30 ? clamp(dot(face, facePosition) / facing, 0.5, 2.0) : 1.0;
 #endif

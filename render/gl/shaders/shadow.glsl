@@ -72,7 +72,7 @@ float shareOfLight(ShadowLight light, vec3 position) {
     if (isPerspective) along = max(-place.z, 1e-30);
     vec2 perTexel = 2.0 / (size * max(face.xy, 1e-30));  // in units of place / along
     vec2 texels = ((place.xy / along * face.xy + face.zw) * 0.5 + 0.5) * size - 0.5;
-    texels = clamp(texels, -8.0, size + 8.0);  // what is farther beyond the map is as light
+    texels = clamp(texels, vec2(-8.0), size + 8.0);  // what is farther beyond the map is as light
     // Planes are planes in the map as well: depth is linear across and up.
     float facing = isPerspective ? dot(normal, place) : normal.z;
     facing = abs(facing) < 1e-20 ? 1e-20 : facing;

@@ -4,6 +4,7 @@
 #ifdef SURFACE
 RAY in vec3 unitPosition;  // on the triangle
 RAY in vec3 unitRay;       // from the eye to there
+vec3 rayStart, rayStep;    // both, as main() sets them
 #ifdef SURFACE_CAPS
 flat in float cap;  // of the flat parts: their normal's y; 0: the side
 #endif
@@ -54,7 +55,7 @@ float toSurface() {
 #endif
     const float kFarthest = 0.5;  // only rays that graze a shape round the eye go so far
     float a, b, c;
-    expand(unitPosition, unitRay, a, b, c);
+    expand(rayStart, rayStep, a, b, c);
     float t = seenFrom * entry(a, seenFrom * b, c);
 #ifdef SURFACE_TWO_STEPS
 #ifdef EXACT_DEPTH
@@ -64,7 +65,7 @@ float toSurface() {
 #endif
     for (int i = 1; i < kSteps; ++i) {
         t = clamp(t, -kFarthest, kFarthest);
-        expand(unitPosition + t * unitRay, unitRay, a, b, c);
+        expand(rayStart + t * rayStep, rayStep, a, b, c);
         t += seenFrom * entry(a, seenFrom * b, c);
     }
 #endif

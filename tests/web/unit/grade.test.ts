@@ -100,6 +100,9 @@ test("Moodle's zip of a class is a zip a submission", async () => {
     "None [('Ana Sá_17_assignsubmission_file_/scene.xml', 792), ('Ana Sá_17_assignsubmission_file_/tex/wood.png', 4)]",
     "None [('robot.xml', 15)]", "None [('Carla_19_assignsubmission_file_/work.docx', 5)]"]);
   assert.equal(await classOf(new Blob(['no zip'])), null);
+  // A name that is not UTF-8 is Latin-1: é is one byte of the directory, and two in what is sent.
+  const bytes = Buffer.from(await zipOf({ 'class/Rex_5_assignsubmission_file_/a_.xml': 'x' }).arrayBuffer()), latin = Buffer.from(bytes.toString('latin1').replaceAll('a_.xml', 'a\xe9.xml'), 'latin1');
+  assert.equal(await listed((await classOf(new Blob([latin])))?.[0]?.file as Blob), "None [('Rex_5_assignsubmission_file_/aé.xml', 1)]");
   assert.equal(await classOf(zip.slice(40)), null);
 });
 

@@ -15,6 +15,15 @@ export interface ZipEntry {
   record: Uint8Array; // 46 bytes of the directory
 }
 
+/** Names that are not UTF-8 are read as Latin-1. */
+function nameOf(bytes: Uint8Array): string {
+  try {
+    return new TextDecoder('utf-8', { fatal: true }).decode(bytes);
+  } catch {
+    return new TextDecoder('windows-1252').decode(bytes);
+  }
+}
+
 const view = async (blob: Blob): Promise<DataView> => new DataView(await blob.arrayBuffer());
 
 /** The files of a zip; null: it is none that can be read here. */
@@ -33,7 +42,7 @@ export async function zipEntries(zip: Blob): Promise<ZipEntry[] | null> {
     const whole = entryBytes + nameBytes + directory.getUint16(at + 30, true) + directory.getUint16(at + 32, true);
     if (at + whole > size) return null;
     entries.push({
-      path: new TextDecoder().decode(new Uint8Array(directory.buffer, at + entryBytes, nameBytes)).replaceAll('\\', '/'),
+      path: nameOf(new Uint8Array(directory.buffer, at + entryBytes, nameBytes)).replaceAll('\\', '/'),
       bytes: directory.getUint32(at + 24, true), packed: directory.getUint32(at + 20, true),
       offset: directory.getUint32(at + 42, true), method: directory.getUint16(at + 10, true),
       record: new Uint8Array(directory.buffer, at, entryBytes).slice(),
@@ -128,7 +137,7 @@ async function tarMembers(tar: Blob): Promise<Member[] | null> {
     const header = new Uint8Array(await tar.slice(at, at + tarBlock).arrayBuffer());
     if (header.every((byte) => byte === 0)) break;
     const text = (from: number, length: number): string =>
-      (new TextDecoder().decode(header.subarray(from, from + length)).split('\0')[0] ?? '').trim();
+      (nameOf(header.subarray(from, from + length)).split('\0')[0] ?? '').trim();
     const bytes = Number.parseInt(text(124, 12), 8);
     if (text(257, 5) !== 'ustar' || !(bytes >= 0)) return null;
     const prefix = text(345, 155), path = prefix ? `${prefix}/${text(0, 100)}` : text(0, 100);

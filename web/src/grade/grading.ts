@@ -24,6 +24,7 @@ export const inFlight = signal<ReadonlySet<string>>(new Set());
 /** Why the run stopped before its end. */
 export const stopped = signal('');
 export const restoring = signal(true);
+const withExpected = new Map<string, string>(); // task -> the rubric whose reference images are here
 
 /** The names of the tasks as reports have them: none where there is one task. */
 export const taskNames = computed(() => tasks.value.map(({ name }) => (tasks.value.length > 1 ? name : '')));
@@ -132,6 +133,7 @@ export async function setTasks(all: readonly Task[], isAdded: boolean): Promise<
   for (const { name, reference } of fresh) {
     if (reference) await store.referenceFiles.set(name, reference.file);
     await store.expectedImages.delete(name);
+    withExpected.delete(name);
   }
   // Among several tasks the name of each says which scene of an archive is meant.
   const isOther = isAdded && before.length === 1;
@@ -156,6 +158,13 @@ export function setOverride(row: Omit<Override, 'student'>, submission: Submissi
   overrides.value = row.mark === null && row.comment.trim() === '' ? rest : [...rest, { ...row, student: submission.id }];
 }
 
+/** Takes a submission out of the class; a person's marks of it stay in overrides.csv. */
+export function removeSubmission(id: string): void {
+  dropResults((key) => key.slice(key.indexOf('\n') + 1) === id);
+  submissions.value = submissions.value.filter((one) => one.id !== id);
+  void store.submissionFiles.delete(id);
+}
+
 /** Grades all anew. */
 export function regrade(): void {
   dropResults(() => true);
@@ -164,6 +173,7 @@ export function regrade(): void {
 export async function forget(): Promise<boolean> {
   cancel();
   restoring.value = true; // nothing of this is kept
+  withExpected.clear();
   batch(() => {
     [tasks.value, submissions.value, overrides.value, groups.value] = [[], [], [], []];
     [results.value, stopped.value, missing.value] = [new Map(), '', 'placeholder'];
@@ -197,7 +207,6 @@ const isOfTask = (problem: Problem, task: Task, submission: Submission): boolean
   (problem.status < 500 && problem.status !== 413 && problem.findings[0]?.file === task.reference?.fileName && submission.fileName !== task.reference?.fileName);
 
 let abort: AbortController | null = null;
-const withExpected = new Map<string, string>(); // task -> the rubric whose reference images are here
 
 async function ask(submission: Submission, task: Task, signalOf: AbortSignal): Promise<void> {
   const key = resultKey(task.name, submission.id), rubric = task.rubric?.text ?? '';
@@ -217,6 +226,7 @@ async function ask(submission: Submission, task: Task, signalOf: AbortSignal): P
     withExpected.set(task.name, rubric);
     await store.expectedImages.set(task.name, expected);
   }
+  if (!submissions.value.includes(submission) || !tasks.value.some((one) => one.name === task.name && one.reference === task.reference)) return; // gone meanwhile
   await store.viewImages.set(key, images);
   setResult(key, { grade, rubric });
 }
@@ -241,14 +251,16 @@ async function gradeOne(submission: Submission, task: Task, stop: AbortControlle
 
 /** Grades what has no result yet; after a cancel it goes on where it stopped. */
 export async function run(): Promise<void> {
-  const queue = [...pending.value].filter(({ at }) => isReady(tasks.value[at] as Task, rubrics.value[at] as Rubric));
+  const queue = pending.value.filter(({ at }) => isReady(tasks.value[at] as Task, rubrics.value[at] as Rubric))
+    .map(({ submission, at }) => ({ submission, name: tasks.value[at]?.name }));
   if (running.value || queue.length === 0) return;
   const stop = (abort = new AbortController()), all = queue.length;
   stopped.value = '';
   running.value = { done: 0, all };
   const worker = async (): Promise<void> => {
     for (let next = queue.shift(); next && !stop.signal.aborted; next = queue.shift()) {
-      await gradeOne(next.submission, tasks.value[next.at] as Task, stop);
+      const task = tasks.value.find(({ name }) => name === next?.name);
+      if (task) await gradeOne(next.submission, task, stop);
       if (!stop.signal.aborted) running.value = { done: all - queue.length - inFlight.value.size, all };
     }
   };

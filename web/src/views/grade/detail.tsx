@@ -1,6 +1,6 @@
 // All that is known of a submission, and the marks that a person gives it.
 import { useEffect, useRef } from 'preact/hooks';
-import { overrides, rubrics, setOverride, tasks, taskNames } from '../../grade/grading.ts';
+import { overrides, removeSubmission, rubrics, setOverride, tasks, taskNames } from '../../grade/grading.ts';
 import type { StudentMark, TaskMark } from '../../grade/marks.ts';
 import { isStudent } from '../../grade/names.ts';
 import { resultKey, type Cause, type CriterionGrade, type Diagnostic, type Submission } from '../../grade/types.ts';
@@ -172,6 +172,7 @@ export function Detail() {
       )}
       {task && <TaskDetail key={`${one.submission.id} ${at}`} submission={one.submission} task={task} at={at} />}
       <Total one={one} />
+      <p><button type="button" class="link" onClick={() => removeSubmission(one.submission.id)}>{t('Remove this submission')}</button></p>
     </section>
   );
 }

@@ -19,6 +19,7 @@ import { classOf, submissionsOf, subjectsOf, tasksOf } from '../../../web/src/gr
 import type { GradeTables } from '../../../web/src/grade/tables.ts';
 import { tarHeader, tarOf } from '../../../web/src/grade/tar.ts';
 import type { Grade, Submission } from '../../../web/src/grade/types.ts';
+import { firstCause } from '../../../web/src/views/grade/list_state.ts';
 import { ZipWriter } from '../../../web/src/grade/zip_write.ts';
 
 const tables = JSON.parse(readFileSync('api/schema.json', 'utf8')) as GradeTables;
@@ -188,6 +189,17 @@ test("the grade book's tables", () => {
     '"","",,100.00,,,"\'=cmd","gone"', '']);
   assert.deepEqual(criteriaCsv(report).split('\r\n'), ['Identifier,Full name,Submission,Grade,By hand,"lights"',
     '"Participant 17","Ana Sá","Ana Sá_17_assignsubmission_file_",41.00,yes,41.00', '"","","\'=cmd",,,', '']);
+});
+
+test('the first cause is that of the task that lost most', () => {
+  const cause = (code: string, points: number) => ({ code, criterion: 'models', message: code, points, seen: true, spoils: 0, places: [] });
+  const first = (...grades: Grade[]): string => firstCause(studentMark(ana, grades.map((one, i) => task(String(i), one)), grades.map(() => rubric), []));
+  assert.equal(first(grade(40)), 'x');
+  assert.equal(first(grade(50)), '');
+  assert.equal(first(grade(90, { findings: [cause('a', 1), cause('b', 3)] }), grade(0, { findings: [cause('model.missing', 0)] })), 'model.missing');
+  const error = { code: 'xml.unclosed', severity: 'error' as const, message: 'no end tag' };
+  assert.equal(first(grade(60, { penalty: 40, criteria: [], diagnostics: [error] })), 'no end tag');
+  assert.equal(first(grade(90, { findings: [cause('a', 1)] }), grade(95, { state: 'not graded', refused: true, reason: { code: 'c', message: 'no scene' } })), 'no scene');
 });
 
 test('a rubric is checked by the schema of the service, with lines', () => {

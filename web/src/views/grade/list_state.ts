@@ -56,6 +56,8 @@ function causeOf({ grade, failure }: TaskMark): string {
   const costly = grade.findings.filter(({ points }) => points > 0).sort((a, b) => b.points - a.points)[0];
   const cause = costly ?? grade.findings.find(({ code }) => code.endsWith('.missing'));
   if (cause) return cause.message;
+  const error = grade.penalty > 0 ? grade.diagnostics.find(({ severity }) => severity === 'error') ?? grade.diagnostics[0] : undefined;
+  if (error) return error.message;
   const lost = grade.criteria.filter((one) => one.points < one.most).sort((a, b) => (b.most - b.points) - (a.most - a.points));
   return lost[0]?.reason ?? '';
 }

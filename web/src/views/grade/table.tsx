@@ -81,7 +81,7 @@ function Row({ one, isFirst }: { one: StudentMark; isFirst: boolean }) {
       {one.tasks.length > 1 && one.tasks.map((task) => <TaskCell key={task.task} task={task} />)}
       <td class={state === 'passed' ? 'good' : state === 'waiting' ? 'note' : 'bad'}>{isGrading ? t('grading…') : t(stateWords[state])}
         {isByHand(one) && <span class="by-hand" title={t('changed by hand')}><span aria-hidden="true"> ✎</span><span class="hidden"> {t('changed by hand')}</span></span>}</td>
-      <td class="cause">{cause ? <span title={cause}>{cause}</span> : state !== 'waiting' && <span class="note">{t('as the reference')}</span>}</td>
+      <td class="cause">{cause ? <span title={cause}>{cause}</span> : state === 'passed' && one.points === one.most && <span class="note">{t('as the reference')}</span>}</td>
     </tr>
   );
 }

@@ -1,5 +1,0 @@
-<<<<<<<< HEAD:web/page/assets/chunk-35FXCRPK.js
-import{a as c}from"./chunk-LVOC4S52.js";import{b as e,c as s}from"./chunk-IHE6YUJE.js";import{d as a,g as n}from"./chunk-2ODXQC2V.js";async function d(t){try{let o=t.id===null?{}:{base:t.id},r=await(await a(`v1/scenes?${n(o)}`,{method:"POST",...c({...t.document(),text:t.text.value})})).json(),i={orbit:t.orbit.value,walk:t.walk.value,time:t.clock.time.value,options:t.options.value};t.forgetDraft(),location.hash=s(r.id,e(i))}catch(o){t.report(o)}}export{d as a};
-========
-import{a as c}from"./chunk-JPXIQ4CG.js";import{b as e,c as s}from"./chunk-RQSCTJR7.js";import{d as a,g as n}from"./chunk-QY3JPBCD.js";async function d(t){try{let o=t.id===null?{}:{base:t.id},r=await(await a(`v1/scenes?${n(o)}`,{method:"POST",...c({...t.document(),text:t.text.value})})).json(),i={orbit:t.orbit.value,walk:t.walk.value,time:t.clock.time.value,options:t.options.value};t.forgetDraft(),location.hash=s(r.id,e(i))}catch(o){t.report(o)}}export{d as a};
->>>>>>>> 1fe4fd4 (web: remove a submission, names in Latin-1; a class of 200 measured):web/page/assets/chunk-BDD7IRQS.js

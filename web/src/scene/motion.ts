@@ -45,7 +45,7 @@ export function keysOf(movers: readonly Mover[], from: number, lap: number): Key
   const keys = new Map<number, Key>();
   if (movers.reduce((sum, { seconds }) => sum + lap / seconds, 0) > maxKeys) return [];
   for (const mover of movers)
-    for (let count = Math.ceil(from / mover.seconds - 1e-6); count * mover.seconds <= from + lap + 1e-6; ++count) {
+    for (let count = Math.max(0, Math.ceil(from / mover.seconds - 1e-6)); count * mover.seconds <= from + lap + 1e-6; ++count) {
       const time = Number((count * mover.seconds).toFixed(3)), key = keys.get(time) ?? { time, movers: [] };
       key.movers.push({ mover, count });
       keys.set(time, key);

@@ -63,7 +63,7 @@ function Head() {
           {Object.entries(languages).map(([key, name]) => <option key={key} value={key} lang={key} selected={key === language.value}>{name}</option>)}
         </select>
       </span>
-      <Tool icon={dark.value ? 'sun' : 'moon'} label={dark.value ? t('Light theme') : t('Dark theme')} onClick={toggleTheme} />
+      <Tool icon={dark.value ? 'sun' : 'moon'} shows="below" label={dark.value ? t('Light theme') : t('Dark theme')} onClick={toggleTheme} />
     </header>
   );
 }

@@ -74,7 +74,7 @@ export function Editor({ viewer }: { viewer: Viewer }) {
         <span class="note" role="status">{viewer.edited.value ? t('Edited; kept in this browser.') : t('As on the server.')}</span>
         <span class="space" />
         {viewer.edited.value && <button type="button" class="link" onClick={() => viewer.discardEdits()}>{t('Discard')}</button>}
-        <Tool icon="help" label={t('Reference')} hint={t('The scene language: the element at the cursor')} pressed={hasReference} onClick={toggleReference} />
+        <Tool icon="help" shows="beside" label={t('Reference')} hint={t('The scene language: the element at the cursor')} pressed={hasReference} onClick={toggleReference} />
         <Tool icon="download" label={t('Download the XML')} onClick={save} />
         <button type="button" class="button small" disabled={storing || !ready} onClick={() => void store()}>
           {storing ? t('Storing…') : t('Store and share')}

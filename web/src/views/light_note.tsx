@@ -11,7 +11,7 @@ export function LightNote({ viewer }: { viewer: Viewer }) {
   const light = cameraLightOf(viewer.text.value ?? '');
   return (
     <p class="light-note" role="status">
-      {light ? t('Camera light: alpha {alpha}°, beta {beta}°', { alpha: light.alpha, beta: light.beta }) : t('No camera light yet: A Z, X C add one')}
+      {light ? t('Camera light: alpha {alpha}°, beta {beta}°', { alpha: light.alpha, beta: light.beta }) : t('No camera light yet: a finger, or A Z and X C, add one')}
     </p>
   );
 }

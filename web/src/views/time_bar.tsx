@@ -11,10 +11,14 @@ const speeds = [0.1, 0.25, 0.5, 1, 2, 4, 8];
 const ExportDialog = lazyView(() => import('./export_dialog.tsx').then((module) => module.ExportDialog));
 
 /** "Moon: 3 turns" */
-const nameOf = ({ movers }: Key): string => movers.slice(0, 4).map(({ mover, count }) => {
-  const times = mover.kind === 'turn' ? plural(count, '{count} turn', '{count} turns') : plural(count, '{count} lap', '{count} laps');
-  return mover.name ? `${mover.name}: ${times}` : times;
-}).join(' · ') + (movers.length > 4 ? ' …' : '');
+function nameOf({ time, movers }: Key): string {
+  if (time === 0) return t('The beginning');
+  const names = movers.slice(0, 4).map(({ mover, count }) => {
+    const times = mover.kind === 'turn' ? plural(count, '{count} turn', '{count} turns') : plural(count, '{count} lap', '{count} laps');
+    return mover.name ? `${mover.name}: ${times}` : times;
+  });
+  return names.join(' · ') + (movers.length > 4 ? ' …' : '');
+}
 
 /** The keys of the document, read when the first image is there: they can wait. */
 function useKeys(viewer: Viewer, isWanted: boolean): void {
@@ -55,16 +59,16 @@ export function TimeBar({ viewer, isPlain = false }: { viewer: Viewer; isPlain?:
   };
   return (
     <div class="time-bar" role="group" aria-label={t('Animation')}>
-      <Tool icon={clock.playing.value ? 'pause' : 'play'} label={clock.playing.value ? t('Pause') : t('Play')} keys={t('Space')} onClick={() => clock.toggle()} />
-      {!isPlain && <Tool icon="earlier" label={t('Frame back')} keys="," onClick={() => viewer.stepTime(-1)} />}
-      {!isPlain && <Tool icon="later" label={t('Frame on')} keys="." onClick={() => viewer.stepTime(1)} />}
-      {keys.length > 0 && <Tool icon="keyBefore" label={t('Previous key')} hint={t('Previous key: something is where it began')} keys="B" onClick={() => viewer.toKey(-1)} />}
-      {keys.length > 0 && <Tool icon="keyAfter" label={t('Next key')} hint={t('Next key: something is where it began')} keys="N" onClick={() => viewer.toKey(1)} />}
+      <Tool icon={clock.playing.value ? 'pause' : 'play'} shows="below" label={clock.playing.value ? t('Pause') : t('Play')} keys={t('Space')} onClick={() => clock.toggle()} />
+      {!isPlain && <Tool icon="earlier" shows="below" label={t('Frame back')} keys="," onClick={() => viewer.stepTime(-1)} />}
+      {!isPlain && <Tool icon="later" shows="below" label={t('Frame on')} keys="." onClick={() => viewer.stepTime(1)} />}
+      {keys.length > 0 && <Tool icon="keyBefore" shows="below" label={t('Previous key')} hint={t('Previous key: something is where it began')} keys="B" onClick={() => viewer.toKey(-1)} />}
+      {keys.length > 0 && <Tool icon="keyAfter" shows="below" label={t('Next key')} hint={t('Next key: something is where it began')} keys="N" onClick={() => viewer.toKey(1)} />}
       <span class="track">
         <input type="range" aria-label={t('Time in seconds')} min={from} max={to} step={0.01} value={clock.time.value}
           aria-valuetext={here ? `${seconds}, ${nameOf(here)}` : seconds} onInput={(event) => seek(Number(event.currentTarget.value))} />
         {keys.length > 0 && <Keys viewer={viewer} />}
-        {here && !clock.playing.value && <span class="key-name">{nameOf(here)}</span>}
+        {here && here.time > 0 && !clock.playing.value && <span class="key-name">{nameOf(here)}</span>}
       </span>
       <output>{seconds}</output>
       <label class="speed">
@@ -73,7 +77,7 @@ export function TimeBar({ viewer, isPlain = false }: { viewer: Viewer; isPlain?:
           {speeds.map((speed) => <option key={speed} value={String(speed)} selected={speed === clock.speed.value}>{number(speed)}×</option>)}
         </select>
       </label>
-      {!isPlain && <Tool icon="film" label={t('Export')} hint={t('Export the animation as a file')} onClick={() => setExporting(true)} />}
+      {!isPlain && <Tool icon="film" shows="below" label={t('Export')} hint={t('Export the animation as a file')} onClick={() => setExporting(true)} />}
       {exporting && <ExportDialog viewer={viewer} close={() => setExporting(false)} />}
     </div>
   );

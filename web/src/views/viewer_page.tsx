@@ -16,6 +16,7 @@ import { FindingsDrawer, HiddenNote, Notice, StageState } from './stage_state.ts
 import { showHelp } from './sharing.ts';
 import { TimeBar } from './time_bar.tsx';
 import { Toolbar } from './toolbar.tsx';
+import { Tool } from './ui.tsx';
 import { ViewPanel } from './view_panel.tsx';
 import { language, msg, t } from '../words.ts';
 
@@ -52,13 +53,16 @@ function Panel({ viewer }: { viewer: Viewer }) {
   };
   return (
     <aside class={`panel of-${panel.value}`} aria-label={t('Settings and source')} hidden={panel.value === 'none'}>
-      <div class="tabs" role="tablist" aria-label={t('Panel')} onKeyDown={keys}>
-        {tabs.map(([name, text]) => (
-          <button key={name} type="button" role="tab" id={`tab-${name}`} aria-controls={`panel-${name}`}
-            aria-selected={panel.value === name} tabIndex={panel.value === name ? 0 : -1} onClick={() => openPanel(name)}>
-            {t(text)}{name === 'files' && viewer.missing.value.length > 0 && <span class="count" title={t('missing')}>{viewer.missing.value.length}</span>}
-          </button>
-        ))}
+      <div class="panel-head">
+        <div class="tabs" role="tablist" aria-label={t('Panel')} onKeyDown={keys}>
+          {tabs.map(([name, text]) => (
+            <button key={name} type="button" role="tab" id={`tab-${name}`} aria-controls={`panel-${name}`}
+              aria-selected={panel.value === name} tabIndex={panel.value === name ? 0 : -1} onClick={() => openPanel(name)}>
+              {t(text)}{name === 'files' && viewer.missing.value.length > 0 && <span class="count" title={t('missing')}>{viewer.missing.value.length}</span>}
+            </button>
+          ))}
+        </div>
+        <Tool icon="close" label={t('Close the panel')} onClick={() => openPanel('none')} />
       </div>
       {tabs.map(([name]) => (
         <div key={name} class="panel-body" id={`panel-${name}`} role="tabpanel" aria-labelledby={`tab-${name}`} hidden={panel.value !== name}>

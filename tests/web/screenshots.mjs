@@ -1,10 +1,10 @@
 // Takes the pictures of docs/images anew: light and dark at 1280 x 800, and at the width of a phone.
-//   FAROL_BINARY=build/release/farol node tests/web/screenshots.mjs [FOLDER]
+//   FAROL_BINARY=build/release/farol node tests/web/screenshots.mjs [FOLDER] [VIEW...]
 import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { launch, openPage, root, settled, startServer, webp } from './e2e/fixture.mjs';
 
-const out = process.argv[2] ?? join(root, 'docs/images');
+const [, , out = join(root, 'docs/images'), ...wanted] = process.argv;
 const [server, browser] = await Promise.all([startServer(), launch()]);
 const looks = {
   '': { colorScheme: 'light', viewport: { width: 1280, height: 800 } },
@@ -38,6 +38,19 @@ const views = {
       one.getBoundingClientRect().top > innerHeight || one.querySelector('img.loaded')), null, { timeout: 60000 });
   },
   viewer: settled,
+  /** The timeline at a key, in another language. */
+  async time(view) {
+    await settled(view);
+    await view.page.locator('.language select').selectOption('pt');
+    const next = view.page.getByRole('button', { name: 'Chave seguinte' });
+    for (let i = 0; i < 4; ++i) await next.click();
+    await settled(view);
+  },
+  async share(view) {
+    await settled(view);
+    await view.page.getByRole('button', { name: 'Share', exact: true }).click();
+    await view.page.locator('dialog.share').waitFor();
+  },
   async editor(view) {
     await settled(view);
     if (!(await view.page.locator('.panel').isVisible())) await view.page.getByRole('button', { name: 'Panel', exact: true }).click();
@@ -76,10 +89,10 @@ const views = {
     await view.page.waitForTimeout(300);
   },
 };
-const places = { gallery: '#/', viewer: '#/scene/solar-system', editor: '#/scene/can-and-pawns', grade: '#/grade' };
+const places = { gallery: '#/', viewer: '#/scene/solar-system', time: '#/scene/solar-system', share: '#/scene/torch', editor: '#/scene/can-and-pawns', grade: '#/grade' };
 
 const converter = await browser.newPage();
-for (const [name, ready] of Object.entries(views))
+for (const [name, ready] of Object.entries(views).filter(([view]) => wanted.length === 0 || wanted.includes(view)))
   for (const [suffix, look] of Object.entries(looks)) {
     const view = await openPage(browser, `${server.url}/${places[name]}`, look);
     await ready(view);

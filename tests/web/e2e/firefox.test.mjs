@@ -49,24 +49,30 @@ after(async () => {
 });
 
 async function open(hash) {
-  const page = await browser.newPage(), faults = [];
+  const page = await browser.newPage(), faults = [], images = [];
+  page.on('request', (request) => {
+    const asked = new URL(request.url());
+    if (asked.searchParams.has('seq')) images.push({ seq: Number(asked.searchParams.get('seq')), moving: asked.searchParams.has('scale') });
+  });
   page.on('pageerror', (error) => faults.push(String(error.message ?? error)));
   page.on('console', (message) => {
     if (message.type() === 'error') faults.push(message.text());
   });
   await page.setViewport({ width: 1280, height: 800 });
   await page.goto(`${url}/${hash}`);
-  return { page, faults, close: async () => (await page.close(), assert.deepEqual(faults, [])) };
+  return { page, images, faults, close: async () => (await page.close(), assert.deepEqual(faults, [])) };
 }
 
-/** Until nothing newer than the image on show was asked for; its number. */
-async function settled(page) {
+/** Until the image at rest is on show: the last that was asked for, and nothing newer for a while. */
+async function settled({ page, images }) {
   await page.waitForSelector('.stage[aria-busy=false]', { timeout: 60000 });
-  for (let calm = 0, last = -1; calm < 4;) {
+  const until = Date.now() + 60000;
+  for (let calm = 0; calm < 4;) {
+    assert.ok(Date.now() < until, 'the image never came to rest');
     await new Promise((done) => setTimeout(done, 150));
     const seq = await page.$eval('.stage canvas', (canvas) => Number(canvas.dataset.seq ?? -1));
-    calm = seq >= 0 && seq === last ? calm + 1 : 0;
-    last = seq;
+    const last = images.at(-1);
+    calm = last && !last.moving && last.seq === seq ? calm + 1 : 0;
   }
 }
 
@@ -79,15 +85,15 @@ const colours = (page) => page.$eval('.stage canvas', (canvas) => {
 });
 
 test('Firefox: the gallery lists scenes with their images', { skip }, async () => {
-  const { page, close } = await open('#/');
+  const view = await open('#/'), { page, close } = view;
   await page.waitForSelector('.card img.loaded', { timeout: 60000 });
   assert.ok((await page.$$('.card')).length >= 5);
   await close();
 });
 
 test('Firefox: a scene is drawn, follows the mouse and the keys, and its link gives the view', { skip }, async () => {
-  const { page, close } = await open('#/scene/torch');
-  await settled(page);
+  const view = await open('#/scene/torch'), { page, close } = view;
+  await settled(view);
   const first = await colours(page);
   assert.ok(new Set(first).size > 40, `${new Set(first).size} colours`);
   const box = await (await page.$('.stage')).boundingBox();
@@ -95,19 +101,19 @@ test('Firefox: a scene is drawn, follows the mouse and the keys, and its link gi
   await page.mouse.down();
   for (let i = 1; i <= 6; ++i) await page.mouse.move(box.x + 500 + 20 * i, box.y + 300);
   await page.mouse.up();
-  await settled(page);
+  await settled(view);
   const turned = await colours(page);
   assert.notDeepEqual(turned, first);
   assert.match(page.url(), /[?&]az=/);
   await page.keyboard.press('r');
-  await settled(page);
+  await settled(view);
   assert.deepEqual(await colours(page), first);
   await close();
 });
 
 test('Firefox: the editor draws what is typed, and undo takes it back', { skip }, async () => {
-  const { page, close } = await open('#/new');
-  await settled(page);
+  const view = await open('#/new'), { page, close } = view;
+  await settled(view);
   const first = await colours(page);
   // The editor is in a shadow root, with constructed style sheets.
   const content = await page.waitForSelector('>>> .cm-content');
@@ -122,18 +128,18 @@ test('Firefox: the editor draws what is typed, and undo takes it back', { skip }
   await page.keyboard.press('End');
   await page.keyboard.type('<background color="#204060"/>');
   await page.waitForFunction(() => document.querySelector('.editor-foot .note').textContent.startsWith('Edited'));
-  await settled(page);
+  await settled(view);
   const edited = await colours(page);
   assert.ok(edited.includes('32,64,96,255'), [...new Set(edited)].join(' '));
   for (let i = 0; i < 40 && !(await page.$eval('.toolbar .tool', (undo) => undo.disabled)); ++i) await page.click('.toolbar .tool');
-  await settled(page);
+  await settled(view);
   assert.deepEqual(await colours(page), first);
   await close();
 });
 
 test('Firefox: another language, sharing and the keys', { skip }, async () => {
-  const { page, close } = await open('#/scene/torch');
-  await settled(page);
+  const view = await open('#/scene/torch'), { page, close } = view;
+  await settled(view);
   await page.select('.language select', 'es');
   await page.waitForFunction(() => document.querySelector('.toolbar .tool').getAttribute('aria-label') === 'Deshacer');
   await page.click('.toolbar .tool.worded');

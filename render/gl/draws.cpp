@@ -59,9 +59,10 @@ ProgramKey keyOf(const FramePlan& plan, const Pass& pass, const Batch& batch) {
     for (const EyeLight& light : plan.lightSets[set]) {
         if (!(light.diffuse.w > 0.0F)) break;
         ++key.shadows;
-        if (shadowLightOf(plan, light).facts.w > 0.0F) key.features.add(Feature::shadowCube);
+        if (light.diffuse.w > 1.0F) ++key.shadowCubes;
     }
     if (key.shadows == 0) key.features.remove(Feature::shadowed);
+    if (key.shadowCubes > 0) key.features.add(Feature::shadowCube);
     return key;
 }
 

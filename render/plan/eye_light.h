@@ -13,7 +13,7 @@ struct EyeLight {
     glm::vec4 position;     ///< w = 1: place; w = 0: unit vector towards the light
     glm::vec4 spot;         ///< unit direction of shining; w: cosine of the cutoff, -2: no cone
     glm::vec4 attenuation;  ///< constant, linear, quadratic; w: spot exponent
-    glm::vec4 diffuse;      ///< w: 1 where it casts shadows
+    glm::vec4 diffuse;      ///< w: 1 where it casts shadows, by a cube 2
     glm::vec4 ambient;      ///< w: the index of its FramePlan::shadowLights
     glm::vec4 specular;
     bool operator==(const EyeLight&) const = default;

@@ -24,7 +24,7 @@ enum class Feature : std::uint8_t {
     localViewer,
     separateSpecular,
     shadowed,    ///< counted: lights with shadow maps, the first of all
-    shadowCube,  ///< of six maps, for some of them
+    shadowCube,  ///< counted: those of six maps, the first of these
     markNotFinite,
     // Texture.
     textured,

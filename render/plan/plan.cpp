@@ -178,9 +178,10 @@ class Planner {
             if (!style_.lit) continue;
             if (list.lights.empty()) chosen = inherited;
             for (const int index : set) chosen.push_back(lights[static_cast<std::size_t>(index)]);
-            if (style_.hasShadows)  // shaders have the shadows of the first
-                std::stable_partition(chosen.begin(), chosen.end(),
-                                      [](const EyeLight& light) { return light.diffuse.w > 0.0F; });
+            if (style_.hasShadows)  // shaders count cubes, then other maps, from the first on
+                std::stable_sort(
+                    chosen.begin(), chosen.end(),
+                    [](const EyeLight& a, const EyeLight& b) { return a.diffuse.w > b.diffuse.w; });
         }
         plan_.stats.lights += static_cast<int>(list.lights.size());
     }

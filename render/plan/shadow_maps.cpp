@@ -336,15 +336,17 @@ EyeShadowLight eyeShadowLight(const PlannedShadows& shadows, const PlannedShadow
     out.up = row(1);
     out.back = row(2);
     const double range = first->farthest - first->nearest;
-    out.facts = first->isPerspective ? glm::vec4(first->nearest, 0.0, 0.0, light.isCube ? 1.0 : 0.0)
+    out.facts = first->isPerspective ? glm::vec4(first->nearest, 0.0, 0.0, 0.0)
                                      : glm::vec4(0.0, -1.0 / range, first->farthest / range, 0.0);
     return out;
 }
 
 void PlannedShadows::mark(std::vector<EyeLight>& list) const {
     for (std::size_t i = 0; i < ofLights.size(); ++i) {
-        list[i].diffuse.w = ofLights[i] < 0 ? 0.0F : 1.0F;
-        list[i].ambient.w = static_cast<float>(std::max(0, ofLights[i]));
+        if (ofLights[i] < 0) continue;
+        const PlannedShadowLight& light = lights[static_cast<std::size_t>(ofLights[i])];
+        list[i].diffuse.w = light.isCube ? 2.0F : 1.0F;
+        list[i].ambient.w = static_cast<float>(ofLights[i]);
     }
 }
 

@@ -60,7 +60,7 @@ struct PlannedShadows {
 struct EyeShadowLight {
     glm::vec4 right, up, back;  ///< rows of lightFromEye
     /// Perspective: x is the depth at distance 1. Directional: x is 0, the depth at distance d is
-    /// y d + z. w: 1 for a cube.
+    /// y d + z.
     glm::vec4 facts;
     std::array<glm::vec4, 6> faces;   ///< scale and offset; scale 0: no map
     std::array<glm::vec4, 2> layers;  ///< of the faces

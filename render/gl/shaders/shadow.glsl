@@ -2,12 +2,17 @@
 #ifdef SHADOWED
 struct ShadowLight {
     vec4 right, up, back;  // rows of lightFromEye
-    vec4 facts;            // depth at distance 1, or 0; depth of a unit and at distance 0; is a cube
+    vec4 facts;            // depth at distance 1, or 0; depth of a unit and at distance 0
     vec4 faces[6];         // scale, offset
     vec4 layers[2];
 };
 layout(std140, binding = 1) uniform ShadowLights { ShadowLight shadowLights[SHADOWED]; };
 layout(binding = 3) uniform sampler2DArray shadowDepths;  // reversed; beyond an edge 0: nothing
+#ifdef SHADOW_CUBE
+const int kCubes = SHADOW_CUBE;  // the first lights
+#else
+const int kCubes = 0;
+#endif
 uniform vec2 shadowOffset;  // texels, and share of the distance
 
 // Of the pixel's surface: unit, towards its lit side; and how far drawn surfaces may be beside it.
@@ -29,8 +34,8 @@ float litTexels(vec2 corner, vec2 size, float layer, float depth, vec2 slope, ve
 // compared with the depth of the receiver's tangent plane at the texel's own middle, so that no
 // slope needs a bias. `index` is a constant: llvmpipe reads others for each pixel. It has no loops,
 // which take llvmpipe several times as long.
-#define FIND_SHARE(index) shares[index] = shareOfLight(shadowLights[index], position)
-float shareOfLight(ShadowLight light, vec3 position) {
+#define FIND_SHARE(index) shares[index] = shareOfLight(shadowLights[index], index < kCubes, position)
+float shareOfLight(ShadowLight light, bool isCube, vec3 position) {
     vec2 size = vec2(textureSize(shadowDepths, 0).xy);
     float away = length(position);
     bool isPerspective = light.facts.x > 0.0;
@@ -39,8 +44,7 @@ float shareOfLight(ShadowLight light, vec3 position) {
     vec3 normal = mat3(lightFromEye) * receiverNormal;
     vec4 face = light.faces[0];
     float layer = light.layers[0].x;
-#ifdef SHADOW_CUBE
-    if (light.facts.w > 0.0) {
+    if (isCube) {
         vec3 reach = abs(place);
         if (reach.x >= reach.y && reach.x >= reach.z) {
             bool isFirst = place.x > 0.0;
@@ -65,7 +69,6 @@ float shareOfLight(ShadowLight light, vec3 position) {
             normal = turn * normal;
         }
     }
-#endif
     float along = isPerspective ? max(-place.z, 1e-30) : 1.0;
     float texel = 2.0 * along / (size.x * max(min(face.x, face.y), 1e-30));
     place += (receiverOffset.x * texel + receiverOffset.y * away) * normal;

@@ -66,7 +66,6 @@ const views = {
     await view.page.locator('.drawer.error .drawer-tab').click();
     await view.page.locator('.findings .error').first().waitFor();
     await view.page.waitForFunction(() => document.querySelector('.code').shadowRoot.querySelector('.cm-lintRange-error'));
-    if (view.page.viewportSize().width < 900) await view.page.locator('.panel').evaluate((one) => one.scrollIntoView({ block: 'end' }));
   },
   async grade(view) {
     const choose = async (button, files) => {

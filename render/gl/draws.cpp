@@ -117,7 +117,7 @@ void Painter::State::setMaterial(const FramePlan& plan, const DrawItem& item,
     api.Uniform1f(program.materialShininess, item.shininess);
     if (program.opacity >= 0) api.Uniform1f(program.opacity, item.opacity);
     if (program.shadowOffset >= 0)
-        api.Uniform2fv(program.shadowOffset, 1, glm::value_ptr(item.shadowOffset));
+        api.Uniform3fv(program.shadowOffset, 1, glm::value_ptr(item.shadowOffset));
     if (program.uvFrom >= 0) api.Uniform4fv(program.uvFrom, 1, glm::value_ptr(item.uvFrom));
     if (program.mappedFrom >= 0) {
         const glm::vec3 origin(item.mesh->mesh.origin());

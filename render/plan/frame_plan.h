@@ -34,8 +34,9 @@ struct DrawItem {
     glm::vec3 surfaceEye{0.0F};      ///< the viewer in the surface's units
     bool isOnSurface = false;        ///< its vertices are; pixels need no step to it
     /// How far the drawn surface may be beside the one that its light is worked out for: texels of
-    /// a shadow map, and share of the distance.
-    glm::vec2 shadowOffset{0.0F};
+    /// a shadow map; share of the distance; and of faces turned away, but lit by smooth normals,
+    /// units.
+    glm::vec3 shadowOffset{0.0F};
     bool hasExactDepth = false;  ///< pixels have the surface's depth, not the mesh's
     bool inside = false;         ///< the insides are drawn
     bool mirrored = false;       ///< determinant < 0: front faces are clockwise

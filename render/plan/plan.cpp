@@ -273,7 +273,7 @@ class Planner {
         if (largest > 0.0)
             item.normalFromObject = glm::mat3(cofactor * ((det < 0.0 ? -1.0 : 1.0) / largest));
         item.mirrored = det < 0.0;
-        if (style_.hasShadows && instance.open)
+        if (style_.hasShadows)
             item.shadowOffset = shadowOffsetOf(item, instance, errorPx_ * view.pixelAngle);
         item.isBody = !model.twoSided && !model.source.isSheet && !isFlat(instance.mesh->bounds);
         fillMaterial(item, instance, list, undressed);

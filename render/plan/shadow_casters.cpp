@@ -12,6 +12,9 @@ namespace {
 /// Most that a mesh errs in its map, texels: less than the filter blurs. And least, of its size.
 constexpr double kErrorTexels = 0.125, kFinest = 1e-4;
 
+/// Maps with more triangles are planned again, with four times the error.
+constexpr std::int64_t kMostTriangles = 2'000'000;
+
 double distanceOf(const std::array<glm::dvec3, 8>& corners, const LightView& light) {
     if (!light.isPerspective) return 1.0;
     Box box;
@@ -133,17 +136,7 @@ class CasterMaker {
     std::vector<DrawItem> items_;
 };
 
-}  // namespace
-
-glm::vec2 shadowOffsetOf(const DrawItem& item, const Instance& instance, double error) {
-    // Shapes without curved parts have the same faces at any fineness.
-    if (instance.surface < 0 && !instance.mesh->flats.empty()) return glm::vec2(0.0F);
-    const bool isExact = item.surface && (item.isOnSurface || item.surface->kind->raySteps > 0);
-    return {0.5, isExact ? 0.0 : error};
-}
-
-void addShadowMaps(FramePlan& plan, const PlannedShadows& shadows, const CasterSource& source) {
-    plan.shadowSide = shadows.side;
+void addCasters(FramePlan& plan, const PlannedShadows& shadows, const CasterSource& source) {
     for (const PlannedShadowMap& planned : shadows.maps) {
         ShadowMap map;
         map.clip = planned.light.clip();
@@ -151,6 +144,38 @@ void addShadowMaps(FramePlan& plan, const PlannedShadows& shadows, const CasterS
         for (const DrawItem& item : map.casters)
             plan.stats.shadowTriangles += static_cast<std::int64_t>(item.indices / 3);
         plan.shadowMaps.push_back(std::move(map));
+    }
+}
+
+}  // namespace
+
+glm::vec3 shadowOffsetOf(const DrawItem& item, const Instance& instance, double error) {
+    const glm::dvec3 size = item.mesh->bounds.max - item.mesh->bounds.min;
+    const auto triangles = static_cast<double>(item.mesh->mesh.triangles());
+    const glm::dmat3 linear(instance.worldFromObject);
+    const double scale =
+        (glm::length(linear[0]) + glm::length(linear[1]) + glm::length(linear[2])) / 3.0;
+    // A quad's share of the box's faces, about.
+    const double area = 4.0 * (size.x * size.y + size.y * size.z + size.z * size.x) / triangles;
+    const double face = 0.5 * std::sqrt(area) * scale;
+    // Shapes without curved parts have the same faces at any fineness.
+    if (!instance.open || (instance.surface < 0 && !instance.mesh->flats.empty()))
+        return {0.0, 0.0, face};
+    const bool isExact = item.surface && (item.isOnSurface || item.surface->kind->raySteps > 0);
+    return {0.5, isExact ? 0.0 : error, face};
+}
+
+void addShadowMaps(FramePlan& plan, const PlannedShadows& shadows, const CasterSource& source) {
+    plan.shadowSide = shadows.side;
+    addCasters(plan, shadows, source);
+    CasterSource coarser = source;
+    std::int64_t before = 0;  // written divisions stay
+    while (plan.stats.shadowTriangles > kMostTriangles && plan.stats.shadowTriangles != before) {
+        before = plan.stats.shadowTriangles;
+        coarser.coarsening *= 4.0;
+        plan.shadowMaps.clear();
+        plan.stats.shadowTriangles = 0;
+        addCasters(plan, shadows, coarser);
     }
     for (const PlannedShadowLight& light : shadows.lights)
         plan.shadowLights.push_back(eyeShadowLight(shadows, light, plan.view));

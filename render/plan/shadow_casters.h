@@ -20,10 +20,11 @@ struct CasterSource {
     bool isTransparent = true;  ///< textures may have holes, and models be seen through
 };
 
-/// DrawItem::shadowOffset of an open model: its mesh in a map differs from the drawn surface, by
+/// DrawItem::shadowOffset. The mesh of an open model in a map differs from the drawn surface, by
 /// less than a texel's half and, where pixels do not follow their rays to the exact surface, by the
-/// error of the drawn mesh, `error` as a share of the distance.
-glm::vec2 shadowOffsetOf(const DrawItem& item, const Instance& instance, double error);
+/// error of the drawn mesh, `error` as a share of the distance. Faces with smooth normals: half
+/// their size.
+glm::vec3 shadowOffsetOf(const DrawItem& item, const Instance& instance, double error);
 
 /// Adds the maps to the plan, with all models that may cast a shadow into them; composePasses
 /// chooses those that do. Counts maps and triangles.

@@ -180,7 +180,7 @@ void main() {
 #ifndef SURFACE
     receiverNormal = dot(face, shadingNormal) < 0.0 ? -face : face;
 #elif defined(SURFACE_CAPS)
-    if (cap != 0.0) receiverOffset = vec2(0.0);
+    if (cap != 0.0) receiverOffset = vec3(0.0);
 #endif
 #endif
 #ifdef SHADOWED

@@ -13,11 +13,11 @@ const int kCubes = SHADOW_CUBE;  // the first lights
 #else
 const int kCubes = 0;
 #endif
-uniform vec2 shadowOffset;  // texels, and share of the distance
+uniform vec3 shadowOffset;  // texels, share of the distance; units, of faces turned away
 
 // Of the pixel's surface: unit, towards its lit side; and how far drawn surfaces may be beside it.
 vec3 receiverNormal;
-vec2 receiverOffset = shadowOffset;
+vec3 receiverOffset = shadowOffset;
 
 // Weighs the four texels round `corner` that are no nearer to the light than the receiver's plane,
 // whose depth at texel (0, 0) is `depth`, and its change by a texel `slope`. Weights are products of
@@ -71,7 +71,13 @@ float shareOfLight(ShadowLight light, bool isCube, vec3 position) {
     }
     float along = isPerspective ? max(-place.z, 1e-30) : 1.0;
     float texel = 2.0 * along / (size.x * max(min(face.x, face.y), 1e-30));
-    place += (receiverOffset.x * texel + receiverOffset.y * away) * normal;
+    float offset = receiverOffset.x * texel + receiverOffset.y * away;
+#ifndef SURFACE
+    // Light that a smooth normal lets in over the edge of its face must not end at the next face.
+    bool isTurnedAway = (isPerspective ? -dot(normal, place) : normal.z) <= 0.0;
+    if (isTurnedAway) offset += receiverOffset.z;
+#endif
+    place += offset * normal;
     if (isPerspective) along = max(-place.z, 1e-30);
     vec2 perTexel = 2.0 / (size * max(face.xy, 1e-30));  // in units of place / along
     vec2 texels = ((place.xy / along * face.xy + face.zw) * 0.5 + 0.5) * size - 0.5;
@@ -82,6 +88,9 @@ float shareOfLight(ShadowLight light, bool isCube, vec3 position) {
     float unit = isPerspective ? light.facts.x / (along * along) : -light.facts.y;  // of distance
     vec2 slope = normal.xy * perTexel *
                  (isPerspective ? light.facts.x / facing : light.facts.y / facing);
+#ifndef SURFACE
+    if (isTurnedAway) slope = vec2(0.0);
+#endif
     float depth = isPerspective ? light.facts.x / along : light.facts.z - light.facts.y * place.z;
     // Rounding: of places, of depths, and of the rasteriser's grid.
     depth += 4e-7 * away * unit + (isPerspective ? 2e-6 * depth : 2e-6) +

@@ -156,6 +156,28 @@ TEST_CASE("models cast by the holes of their textures, and not where they are se
     CHECK(draw(jobOf(floorWith(glass))).level(0, 0) > 150);
 }
 
+TEST_CASE("a crowd of open shapes keeps within the triangles of its maps") {
+    const std::string crowd =
+        R"(<group><scatter count="3000" xzMin="0" xzMax="9" yMin="0" yMax="3"/>
+        <models><model command="sphere 0.3"/></models></group>)";
+    const Drawn drawn = draw(jobOf(floorWith(crowd, R"(<light type="point" posY="4"/>)")));
+    CHECK(drawn.picture.stats.shadowTriangles > 100'000);
+    CHECK(drawn.picture.stats.shadowTriangles <= 2'000'000);
+}
+
+TEST_CASE("a coarse ball with smooth normals has no teeth where light ends") {
+    // Seen from above, with the sun from the side: light falls along each row.
+    const std::string ball = at("", R"(<model command="sphere 3 16 16"/>)");
+    const std::string sun = R"(<light type="directional" dirX="1" dirY="0.3"/>)";
+    const Drawn on = draw(jobOf(floorWith(ball, sun)));
+    const Drawn off = draw(jobOf(floorWith(ball, sun, "")));
+    int different = 0;
+    for (double z = -2.0; z <= 2.0; z += 0.1)
+        for (double x = -1.5; x <= 1.5; x += 0.1)
+            different += std::abs(on.level(x, z) - off.level(x, z)) > 3 ? 1 : 0;
+    CHECK(different == 0);
+}
+
 TEST_CASE("layers are those of the scene without shadows") {
     for (const Layer layer : {Layer::depth, Layer::normal, Layer::id}) {
         render::Job job = jobOf(floorWith(at(R"(x="2" y="2")", kBall)));

@@ -6,6 +6,7 @@ import './style/gallery.css';
 import './style/viewer.css';
 import './style/panel.css';
 import './style/tree.css';
+import './style/compare.css';
 import './style/grade.css';
 import './style/assignment.css';
 import './style/touch.css';

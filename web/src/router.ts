@@ -2,6 +2,7 @@
 //   #/                 the gallery          #/scene/ID?az=..&el=..   a scene and how it is seen
 //   #/new              a scene of one's own #/grade                  marks a class
 //   #/assignments/ID   a student's check of a scene
+//   #/compare/A/B?..   two scenes side by side; each may be left out
 // Anything else is `lost`: a link that was cut off or mistyped.
 import { signal } from '@preact/signals';
 import { formatVec, parseVec } from './maths/vec.ts';
@@ -12,6 +13,7 @@ export type Place =
   | { page: 'grade' }
   | { page: 'assignment'; id: string }
   | { page: 'new' }
+  | { page: 'compare'; first: string; second: string; view: URLSearchParams }
   | { page: 'lost' }
   | { page: 'scene'; id: string; view: URLSearchParams };
 
@@ -32,6 +34,8 @@ export function parsePlace(hash: string): Place {
   const [path = '', text = ''] = hash.replace(/^#/, '').split(/\?(.*)/s);
   if (path === '/grade') return { page: 'grade' };
   if (path === '/new') return { page: 'new' };
+  const pair = /^\/compare(?:\/([^/]*))?(?:\/([^/]*))?$/.exec(path);
+  if (pair) return comparePlace(pair[1] ?? '', pair[2] ?? '', new URLSearchParams(text));
   const assignment = /^\/assignments\/([a-z0-9-]{1,40})$/.exec(path);
   if (assignment) return { page: 'assignment', id: assignment[1] as string };
   if (path === '' || path === '/') return { page: 'gallery' };
@@ -43,6 +47,17 @@ export function parsePlace(hash: string): Place {
     return { page: 'lost' }; // a broken %-escape names nothing
   }
 }
+
+function comparePlace(first: string, second: string, view: URLSearchParams): Place {
+  try {
+    return { page: 'compare', first: decodeURIComponent(first), second: decodeURIComponent(second), view };
+  } catch {
+    return { page: 'lost' };
+  }
+}
+
+export const compareAddress = (first: string, second: string, view = ''): string =>
+  `#/compare/${encodeURIComponent(first)}/${encodeURIComponent(second)}${view ? `?${view}` : ''}`;
 
 const numberOf = (view: URLSearchParams, name: string): number | null => {
   const text = view.get(name);
@@ -93,6 +108,9 @@ export const place = signal<Place>(parsePlace(location.hash));
 addEventListener('hashchange', () => {
   place.value = parsePlace(location.hash);
 });
+
+/** The line that the editor of the next scene opens at. */
+export const nextLine = signal<number | null>(null);
 
 /** Changes the address without a new entry in the history, and without opening anything. */
 export function replaceAddress(hash: string): void {

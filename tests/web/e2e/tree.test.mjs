@@ -90,8 +90,11 @@ test('a click in the image selects the model, then its groups; a click beside ev
   for (let i = 0; i < 3; ++i) {
     const before = await view.page.evaluate(() => document.querySelector('.tree').getAttribute('aria-activedescendant'));
     await clickAt(view, x, y);
-    await view.page.waitForFunction((old) => document.querySelector('.tree').getAttribute('aria-activedescendant') !== old, before);
-    names.push(await view.page.evaluate(() => document.querySelector('.tree').getAttribute('aria-activedescendant')));
+    const named = await view.page.waitForFunction((old) => {
+      const now = document.querySelector('.tree').getAttribute('aria-activedescendant');
+      return now !== old && now;
+    }, before);
+    names.push(await named.jsonValue());
   }
   // From the model outwards; each entry's path begins with that of its group.
   assert.ok(names[0].startsWith(`${names[1]}.`), names.join(' '));

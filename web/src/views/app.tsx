@@ -14,6 +14,7 @@ import { ViewerPage } from './viewer_page.tsx';
 import { chooseLanguage, language, languages, t } from '../words.ts';
 
 const AssignmentPage = lazyView(() => import('./assignment_page.tsx').then((module) => module.AssignmentPage));
+const ComparePage = lazyView(() => import('./compare_page.tsx').then((module) => module.ComparePage));
 const GradePage = lazyView(() => import('./grade_page.tsx').then((module) => module.GradePage));
 
 function useDrops(): void {
@@ -22,7 +23,7 @@ function useDrops(): void {
     const on = <K extends keyof WindowEventMap>(name: K, handle: (event: WindowEventMap[K]) => void): void =>
       window.addEventListener(name, handle, { signal: abort.signal });
     const ofFiles = (event: DragEvent): boolean =>
-      place.value.page !== 'grade' && place.value.page !== 'assignment' && [...(event.dataTransfer?.types ?? [])].includes('Files');
+      !['grade', 'assignment', 'compare'].includes(place.value.page) && [...(event.dataTransfer?.types ?? [])].includes('Files');
     on('dragover', (event) => {
       if (!ofFiles(event)) return;
       event.preventDefault();
@@ -53,6 +54,7 @@ function Head() {
         {link('gallery', '#/', t('Scenes'))}
         {link('new', '#/new', t('New'))}
         {link('grade', '#/grade', t('Grade'))}
+        {link('compare', '#/compare', t('Compare'))}
       </nav>
       <span class="space" />
       <a class="quiet" href="openapi.yaml">API</a>
@@ -104,6 +106,7 @@ export function App() {
       {(where.page === 'scene' || where.page === 'new') && (
         <ViewerPage key={id ?? `new ${local.value?.count ?? 0}`} id={id} view={where.page === 'scene' ? where.view : new URLSearchParams()} />
       )}
+      {where.page === 'compare' && <ComparePage first={where.first} second={where.second} view={where.view} />}
       {where.page === 'grade' && <GradePage />}
       {where.page === 'assignment' && <AssignmentPage id={where.id} />}
       {where.page === 'lost' && <GonePage />}

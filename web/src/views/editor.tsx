@@ -8,6 +8,7 @@ import { storeEdited } from '../scene/store_edited.ts';
 import { entryAround, entryAt, kindOf } from '../scene/tree.ts';
 import { parseXml } from '../scene/xml.ts';
 import { Tool } from './ui.tsx';
+import { compareAddress } from '../router.ts';
 import { panel } from './viewer_page.tsx';
 import { saveBlob } from './save.ts';
 import { t } from '../words.ts';
@@ -73,6 +74,7 @@ export function Editor({ viewer }: { viewer: Viewer }) {
       <div class="editor-foot">
         <span class="note" role="status">{viewer.edited.value ? t('Edited; kept in this browser.') : t('As on the server.')}</span>
         <span class="space" />
+        {viewer.edited.value && viewer.id !== null && <a href={compareAddress(viewer.id, `draft:${viewer.id}`)}>{t('Compare')}</a>}
         {viewer.edited.value && <button type="button" class="link" onClick={() => viewer.discardEdits()}>{t('Discard')}</button>}
         <Tool icon="help" shows="beside" label={t('Reference')} hint={t('The scene language: the element at the cursor')} pressed={hasReference} onClick={toggleReference} />
         <Tool icon="download" label={t('Download the XML')} onClick={save} />

@@ -6,6 +6,7 @@ import { snapping, stepsNow } from '../gizmo/settings.ts';
 import { applyLinear, unit } from '../maths/matrix.ts';
 import { add, length, scale, type Vec3 } from '../maths/vec.ts';
 import { isWithin } from '../scene/hide.ts';
+import { pickModel } from '../scene/pick.ts';
 import { movedBy, targetsOf, type Targets } from '../scene/transform_edits.ts';
 import { entryAt } from '../scene/tree.ts';
 import type { Viewer } from '../scene/viewer.ts';
@@ -15,12 +16,14 @@ import { focusStage } from './stage.tsx';
 
 const armLength = 92; // CSS pixels
 const segments = 64; // of a ring
+const minDrag = 3; // CSS pixels
 
 interface Drag {
   handle: Handle;
   text: string; // as it was when the drag began
   from: Point;
   pointer: number;
+  isDrag: boolean; // false: a press so far, with a trembling hand
 }
 
 /** What handles would change, and the text that they belong to. */
@@ -131,20 +134,24 @@ export function Gizmo({ viewer }: { viewer: Viewer }) {
     event.preventDefault();
     (event.currentTarget as SVGElement).focus({ preventScroll: true });
     (event.currentTarget as Element).setPointerCapture(event.pointerId);
-    dragging.current = { handle, text: now.text, from: pointOf(event), pointer: event.pointerId };
+    dragging.current = { handle, text: now.text, from: pointOf(event), pointer: event.pointerId, isDrag: false };
     setActive(handle.id);
     viewer.beginGesture();
   };
   const move = (event: PointerEvent): void => {
     const held = dragging.current;
     if (held?.pointer !== event.pointerId) return;
-    editFrom(viewer, held.text, drag(held.handle, lens, held.from, pointOf(event), stepsNow(event.shiftKey)), 'dragging');
+    const to = pointOf(event);
+    held.isDrag ||= Math.hypot(to.x - held.from.x, to.y - held.from.y) >= minDrag;
+    if (held.isDrag) editFrom(viewer, held.text, drag(held.handle, lens, held.from, to, stepsNow(event.shiftKey)), 'dragging');
   };
   const end = (event: PointerEvent): void => {
     const held = dragging.current;
     if (held?.pointer !== event.pointerId) return;
     if (event.type === 'pointercancel') viewer.edit(held.text, 'done');
     finish();
+    // A click is for what lies below.
+    if (event.type === 'pointerup' && !held.isDrag) void pickModel(viewer, held.from.x, held.from.y);
   };
   const finish = (): void => {
     dragging.current = null;

@@ -4,7 +4,7 @@ import { lazyView } from './lazy.tsx';
 import { useEffect, useMemo, useRef } from 'preact/hooks';
 import { scenePath, type Finding } from '../api.ts';
 import { loadDraft } from '../scene/drafts.ts';
-import { parseView } from '../router.ts';
+import { nextLine, parseView } from '../router.ts';
 import { local, takesParts } from '../upload.ts';
 import { Viewer } from '../scene/viewer.ts';
 import { areParts } from '../scene/scene_files.ts';
@@ -92,6 +92,12 @@ export function ViewerPage({ id, view }: { id: string | null; view: URLSearchPar
   }, [id]);
   useEffect(() => {
     void viewer.open(parseView(view), own?.text ?? newScene);
+    const line = nextLine.peek();
+    if (line !== null) {
+      nextLine.value = null;
+      openPanel('xml');
+      viewer.reveal.value = { line, column: 1 };
+    }
     const keep = (): void => viewer.flushDraft();
     addEventListener('pagehide', keep);
     const historyKeys = (event: KeyboardEvent): void => {

@@ -222,6 +222,44 @@ test('one after the other by the keyboard alone', async () => {
   await view.close();
 });
 
+test('a whole session by the keyboard alone', async () => {
+  const view = await openGrade({ acceptDownloads: true }), { keyboard } = view.page;
+  /** Tabs until the focus is on an element of that name. */
+  const tabTo = async (name) => {
+    for (let i = 0; i < 120; ++i) {
+      await keyboard.press('Tab');
+      const focused = await view.page.evaluate(() => document.activeElement?.getAttribute('aria-label') ?? document.activeElement?.textContent?.trim() ?? '');
+      if (name.test(focused)) return;
+    }
+    assert.fail(`Tab never came to ${name}`);
+  };
+  await tabTo(/^Try an example class$/);
+  await keyboard.press('Enter');
+  await view.page.getByText('7 submissions', { exact: true }).first().waitFor();
+  await view.page.waitForFunction(() => document.activeElement?.textContent === 'Grade' && document.activeElement.closest('.go'));
+  await keyboard.press('Enter');
+  await view.page.getByText('14 graded.').waitFor({ timeout: 120000 });
+  await keyboard.press('j');
+  await keyboard.press('j');
+  assert.equal(await view.page.locator('#detail h2').innerText(), 'Bento Dias');
+  await tabTo(/^line 91$/);
+  await keyboard.press('Enter');
+  await view.page.waitForFunction(() => document.activeElement?.classList.contains('lines'));
+  await tabTo(/^Mark for transforms$/);
+  await keyboard.type('0');
+  await keyboard.press('Tab');
+  await keyboard.type('see me');
+  await keyboard.press('Tab');
+  assert.match((await cellsOf(view, 'Bento')).join(), /changed by hand/);
+  await keyboard.press('Escape');
+  await tabTo(/^Save as$/);
+  await keyboard.press('Enter');
+  await tabTo(/^criteria\.csv/);
+  const [download] = await Promise.all([view.page.waitForEvent('download'), keyboard.press('Enter')]);
+  assert.equal(download.suggestedFilename(), 'criteria.csv');
+  await view.close();
+});
+
 test('a run is cancelled and goes on', async () => {
   const view = await openGrade();
   let held = [];

@@ -71,6 +71,7 @@ test('what is dropped becomes submissions', async () => {
   // Files that Moodle sends without folders are one a student.
   assert.deepEqual(names(['Ana_1_assignsubmission_file_a.xml', 'Ana_1_assignsubmission_file_wood.png', 'Bo_2_assignsubmission_file_b.xml']),
     ['Ana_1_assignsubmission_file_ Ana_1_assignsubmission_file_.tar', 'Bo_2_assignsubmission_file_ b.xml']);
+  await assert.rejects(submissionsOf([{ path: 'class.zip', file: new File([new Uint8Array(17 << 20)], 'class.zip') as never }], []), /class\.zip cannot be read: it is damaged/);
   // Names that are there twice, in two zips.
   const zip = zipOf({ 'Ana_1_assignsubmission_file_/a.xml': '<world/>' });
   const twice = await submissionsOf([{ path: 'class.zip', file: zip as never }, file('bob.xml')], []);

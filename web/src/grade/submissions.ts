@@ -1,4 +1,5 @@
 // What was dropped, as submissions to grade and as tasks: the layouts that `farol grade` reads.
+import { t } from '../words.ts';
 import { isLitter, stripCommonFolder, type NamedFile } from '../scene/bundle.ts';
 import { isArchiveName, repacked, zipEntries, type ZipEntry } from './archive.ts';
 import { moodlePrefix, studentOf } from './names.ts';
@@ -15,6 +16,8 @@ export interface Subject {
 export interface Handed extends Submission {
   file: Blob;
 }
+
+const maxSentBytes = 16 * 1024 * 1024; // what the service takes; of less it says itself what is wrong
 
 // Of a whole project code, build folders and videos stay here.
 const wanted = /\.(xml|3db?|obj|mtl|ply|tri|stl|off|patch|png|jpe?g|webp|bmp|tga|gif|hdr|exr|tiff?|pnm|p[bgp]m|json|toml|zip|tar|tgz|gz|7z|rar)$/i;
@@ -120,7 +123,9 @@ export async function classOf(zip: Blob, tasks: readonly string[] = []): Promise
 export async function submissionsOf(files: readonly NamedFile[], tasks: readonly string[]): Promise<Handed[]> {
   const kept = files.filter(({ path }) => !isLitter(path)), classes: Handed[] = [], rest: NamedFile[] = [];
   for (const one of kept) {
-    const members = /\.zip$/i.test(one.path) && !moodlePrefix(one.path.split('/')[0] as string) ? await classOf(one.file, tasks) : null;
+    const isZip = /\.zip$/i.test(one.path) && !moodlePrefix(one.path.split('/')[0] as string), members = isZip ? await classOf(one.file, tasks) : null;
+    if (isZip && !members && one.file.size > maxSentBytes && !(await zipEntries(one.file)))
+      throw new Error(t('{name} cannot be read: it is damaged, or larger than 4 GB. Unpack it and choose the folder.', { name: one.path }));
     if (members) classes.push(...members);
     else rest.push(one);
   }

@@ -42,6 +42,9 @@ function Tasks() {
   );
 }
 
+/** The button that was pressed is gone: the next step has the focus. */
+const focusGrade = (): void => void requestAnimationFrame(() => document.querySelector<HTMLElement>('.go .primary')?.focus());
+
 export function Setup() {
   const hasTasks = tasks.value.length > 0, count = submissions.value.length;
   return (
@@ -66,7 +69,7 @@ export function Setup() {
       {reading.value && <p role="status" class="note">{reading.value}</p>}
       {dropProblems.value.length > 0 && <div role="alert" class="problem">{dropProblems.value.map((text) => <p key={text}>{text}</p>)}</div>}
       {!hasTasks && count === 0 && !reading.value && (
-        <p class="try"><button type="button" class="button" onClick={() => void takeExample()}>{t('Try an example class')}</button>
+        <p class="try"><button type="button" class="button" onClick={() => void takeExample().then(focusGrade)}>{t('Try an example class')}</button>
           <span class="note">{t('Seven students, two tasks, some mistakes: nothing to prepare.')}</span></p>
       )}
     </>

@@ -5,11 +5,9 @@
 #include "render/gl/objects.h"
 #include "render/gl/program.h"
 #include "render/gl/target.h"
+#include "render/plan/transparency.h"
 
 namespace farol::render::gl {
-
-/// Surfaces sorted in a pixel or a sample; those behind the last are left out.
-inline constexpr int kMaxPeeledLayers = 64;
 
 /// Targets of depth peeling (Everitt, "Interactive Order-Independent Transparency", 2001): each
 /// layer holds the nearest see-through surface of every sample that is behind the layer before and

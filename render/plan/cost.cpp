@@ -8,6 +8,7 @@
 
 #include "render/plan/frustum.h"
 #include "render/plan/messages.h"
+#include "render/plan/see_through.h"
 
 namespace farol::render {
 namespace {
@@ -27,6 +28,9 @@ constexpr double kCallCost = 15e-6;                            // of a pass
 constexpr double kDepthCallCost = 5e-6, kDepthTriangleCost = 0.15e-6, kDepthFragmentCost = 1.5e-9;
 // Of shadow maps: clearing and filling a texel, and looking one light's up for a fragment.
 constexpr double kShadowTexelCost = 4e-9, kShadowLookupCost = 80e-9;
+// Of a layer that is peeled: clear it and blend it over the others, of a sample; and of a fragment,
+// the two depths that it is compared with.
+constexpr double kPeelSampleCost = 12e-9, kPeelFragmentCost = 12e-9;
 constexpr double kLineWidth = 4.0;  // px that a line's fragments are counted as
 
 /// How many layers of triangles a mesh has before each other, about: 1 for closed shapes.
@@ -44,27 +48,43 @@ double layersOf(const MeshData& data) {
     return faces > 0.0 ? std::max(1.0, area / (2.0 * faces)) : 1.0;
 }
 
-/// How often the passes draw a model, how often by its outlines, and how many times they shade a
-/// pixel of it.
+/// How often the passes draw a model, how often by its outlines, how many times they shade a pixel
+/// of it, and how often a pixel of it is compared with depths of layers.
 struct DrawShare {
-    double draws = 0.0, outlines = 0.0, shadings = 0.0;
+    double draws = 0.0, outlines = 0.0, shadings = 0.0, peelings = 0.0;
 };
 
-void addShares(const FramePlan& plan, const Pass& pass, const PassItem& item,
+/// Draws of all see-through models by a pass that peels them.
+double drawsOfPeeled(const FramePlan& plan) {
+    SeeThroughSurfaces surfaces(plan.view.size);
+    // Inner sides are items already.
+    for (const DrawItem& item : plan.items)
+        if (item.alpha == image::Alpha::blended)
+            surfaces.add(pixelRect(item.mesh->bounds, glm::dmat4(item.viewFromObject), plan.view),
+                         1.0);
+    return peelsOf(surfaces.deepest());
+}
+
+void addShares(const FramePlan& plan, const Pass& pass, const PassItem& item, double peels,
                std::vector<DrawShare>& shares) {
-    if (item.kind != PassItem::Kind::models) return;
+    const bool isPeeled = item.kind == PassItem::Kind::peeled;
+    if (item.kind != PassItem::Kind::models && item.kind != PassItem::Kind::blended && !isPeeled)
+        return;
     if (pass.state.depthOnly) return;  // saves more than it costs, or is not there
-    const double shadings = static_cast<double>(pass.target.scale) * pass.target.scale *
-                            (pass.target.samples > 1 ? 1.5 : 1.0) * pass.target.rows /
-                            plan.view.size.y;
+    const double targets = static_cast<double>(pass.target.scale) * pass.target.scale *
+                           pass.target.rows / plan.view.size.y;
+    const double samples = isPeeled ? pass.target.samples : pass.target.samples > 1 ? 1.5 : 1.0;
+    // Of the draws of a layered pixel's surface, those that peel layers at or before it shade it.
+    const double shadings = targets * samples * (isPeeled ? std::max(1.0, 0.5 * peels) : 1.0);
     const bool outlined = pass.state.polygons != Polygons::filled;
     for (std::size_t b = item.first; b < item.first + item.count; ++b) {
         const Batch& batch = plan.batches.batches[b];
         for (std::size_t i = batch.first; i < batch.first + batch.count; ++i) {
             DrawShare& share = shares[plan.batches.order[i]];
-            share.draws += 1.0;
+            share.draws += isPeeled ? peels : 1.0;
             share.outlines += outlined ? 1.0 : 0.0;
             share.shadings += shadings;
+            if (isPeeled) share.peelings += targets * samples * peels;
         }
     }
 }
@@ -117,8 +137,16 @@ FrameCost estimateCost(const FramePlan& plan) {
             cost.pixels += kPixelPassCost * pass.target.scale * pass.target.scale *
                            pass.target.rows * plan.view.size.x;
     std::vector<DrawShare> shares(plan.items.size());
+    double peels = 0.0;
     for (const Pass& pass : plan.passes)
-        for (const PassItem& item : pass.items) addShares(plan, pass, item, shares);
+        for (const PassItem& item : pass.items) {
+            if (item.kind == PassItem::Kind::peeled) {
+                if (peels == 0.0) peels = drawsOfPeeled(plan);
+                cost.pixels += kPeelSampleCost * peels * pass.target.samples * pass.target.scale *
+                               pass.target.scale * pass.target.rows * plan.view.size.x;
+            }
+            addShares(plan, pass, item, peels, shares);
+        }
     for (std::size_t i = 0; i < shares.size(); ++i) {
         const DrawItem& item = plan.items[i];
         const DrawShare& share = shares[i];
@@ -139,7 +167,8 @@ FrameCost estimateCost(const FramePlan& plan) {
         } else if (triangles * area * fragmentCost(plan, item) > 1.0) {
             area *= layersOf(*item.mesh);  // costs time itself: where it may matter alone
         }
-        cost.fragments += share.shadings * area * fragmentCost(plan, item);
+        cost.fragments += share.shadings * area * fragmentCost(plan, item) +
+                          share.peelings * area * kPeelFragmentCost;
     }
     const auto maps = static_cast<double>(plan.shadowMaps.size());
     cost.pixels += maps * kShadowTexelCost * plan.shadowSide * plan.shadowSide;

@@ -11,12 +11,14 @@
 namespace farol::render {
 
 struct FrameCost {
-    double pixels = 0.0;     ///< resolve, read-back and encoding, core-seconds
+    double pixels = 0.0;     ///< resolve, read-back, encoding and peeled layers, core-seconds
     double fragments = 0.0;  ///< shading
     double geometry = 0.0;   ///< triangles and draw calls, in every pass
     double total() const { return pixels + fragments + geometry; }
 };
 
+/// Counts blended and peeled models by their opacity; by the alpha of their textures once
+/// FramePlan::textureAlphas is known.
 FrameCost estimateCost(const FramePlan& plan);
 
 /// Core-seconds to shade a fragment of the item.

@@ -6,6 +6,7 @@
 
 #include "render/plan/plan.h"
 #include "render/plan/sampling.h"
+#include "render/plan/see_through.h"
 
 namespace farol::render {
 namespace {
@@ -21,6 +22,8 @@ struct Candidate {
 };
 
 #include "render/plan/quality_front.inc"
+
+constexpr int kGlSamples = 4;  // of the GL that the front was measured with
 
 const SampleCost& costOf(int samples) {
     const auto found = std::find_if(kCosts.begin(), kCosts.end(),
@@ -55,6 +58,22 @@ void count(const InstanceList& list, FrameLoad& load) {
     load.lights += static_cast<double>(list.lights.size());
 }
 
+/// Of opacities: the alpha of a texture is known once it is decoded. Not of the entity.
+void countSeeThrough(const PictureOptions& options, const scene::Scene& scene, const Placed& placed,
+                     const glm::ivec2& size, FrameLoad& load) {
+    const scene::Transparency transparency = options.transparency.value_or(
+        scene.settings.transparency.value_or(scene::Transparency::on));
+    if (transparency == scene::Transparency::off) return;
+    SeeThroughSurfaces surfaces(size);
+    const double aspect = static_cast<double>(size.x) / size.y;
+    addSeeThrough(placed.scene,
+                  viewOf(chooseCamera(scene, options, placed.scene.bounds, aspect), size),
+                  surfaces);
+    if (surfaces.area() <= 0.0) return;
+    load.seeThrough = surfaces.area() / load.pixels;
+    if (transparency == scene::Transparency::exact) load.peels = peelsOf(surfaces.deepest());
+}
+
 }  // namespace
 
 double expectedMs(const FrameLoad& load, int samples, double errorPx) {
@@ -63,11 +82,17 @@ double expectedMs(const FrameLoad& load, int samples, double errorPx) {
     const double triangles = load.writtenTriangles + kTrianglesOpen *
                                                          std::sqrt(load.pixels * load.openModels) /
                                                          errorOf(errorPx, samples);
+    // A peeled fragment is shaded in each of the GL's samples, as often as there are layers at or
+    // before it: half of the draws.
+    const double shadings =
+        load.seeThrough *
+        (load.peels > 0.0 ? 0.5 * load.peels * std::min(samples, kGlSamples) : 1.0);
     return kFixedMs + kShadowMsPerMap * load.shadowMaps +
-           1e-6 * load.pixels * load.shadowLights * kShadowMsPerMegapixel * shadingsOf(samples) +
-           1e-6 * load.pixels * cost.msPerMegapixel *
+           1e-6 * load.pixels * load.shadowLights * kShadowMsPerMegapixel * shadingsOf(samples) *
+               (1.0 + shadings) +
+           1e-6 * load.pixels * cost.msPerMegapixel * (1.0 + shadings) *
                (1.0 + kPerLight * std::max(0.0, load.lights - 1.0)) +
-           1e-6 * triangles * cost.msPerMegatriangle;
+           1e-6 * triangles * cost.msPerMegatriangle * (1.0 + load.peels);
 }
 
 int samplesFor(double errorPx) {
@@ -100,6 +125,7 @@ std::optional<Quality> resolveBudget(PictureOptions& options, const scene::Scene
     const scene::Shadows shadows =
         options.shadows.value_or(scene.settings.shadows.value_or(scene::Shadows::off));
     if (shadows == scene::Shadows::map) countShadows(placed.scene, load);
+    countSeeThrough(options, scene, placed, size, load);
     const Quality chosen =
         chooseQuality(*options.budgetMs, load,
                       options.samples ? options.samples : scene.settings.samples, options.errorPx);

@@ -4,6 +4,9 @@
 
 namespace farol::render {
 
+/// Surfaces sorted in a pixel or a sample; those behind the last are left out.
+inline constexpr int kMaxPeeledLayers = 64;
+
 /// True where a box has no thickness along an axis, as that of a sheet.
 bool isFlat(const Box& box);
 

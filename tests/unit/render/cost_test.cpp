@@ -94,6 +94,59 @@ TEST_CASE("a mesh of layers counts each of them") {
     CHECK(estimateCost(plan).fragments > 20.0 * one);
 }
 
+namespace {
+
+/// The boxes, each `aside` further to the right, half transparent.
+FramePlan planOfGlass(int count, double aside, scene::Transparency transparency, int samples = 4) {
+    scene::Scene scene = boxes(count);
+    for (std::size_t i = 0; i < scene.groups.size(); ++i) {
+        scene.groups[i].transforms.push_back(
+            scene::Translate{{aside * static_cast<double>(i), 0, 0}});
+        scene::Model& model = scene.groups[i].models[0];
+        model.source.shape = generator::parseCall({"box", "4", "1"});
+        model.material.emplace().opacity = 0.5F;
+    }
+    scene.settings.transparency = transparency;
+    return planOf(scene, 512, samples);
+}
+
+}  // namespace
+
+TEST_CASE("blended models cost both their sides, peeled ones each of their layers") {
+    using scene::Transparency;
+    const auto fragments = [](const FramePlan& plan) { return estimateCost(plan).fragments; };
+    const auto geometry = [](const FramePlan& plan) { return estimateCost(plan).geometry; };
+    const FramePlan off = planOfGlass(4, 0, Transparency::off),
+                    on = planOfGlass(4, 0, Transparency::on),
+                    exact = planOfGlass(4, 0, Transparency::exact);
+    CHECK(on.stats.blended == 4);
+    CHECK(fragments(on) == Approx(2.0 * fragments(off)));
+    CHECK(geometry(on) == Approx(2.0 * geometry(off)));
+    // Eight sides, and a draw that finds none left.
+    CHECK(geometry(exact) == Approx(9.0 * geometry(on)));
+    CHECK(fragments(exact) > 9.0 * fragments(on));
+    CHECK(estimateCost(exact).pixels > 2.0 * estimateCost(on).pixels);
+    // Without antialiasing a pixel is one sample.
+    CHECK(fragments(planOfGlass(4, 0, Transparency::exact, 1)) < 0.5 * fragments(exact));
+    // Twice the boxes behind each other: twice the layers of twice the sides. Beside each other:
+    // the layers of one.
+    CHECK(geometry(planOfGlass(8, 0, Transparency::exact)) ==
+          Approx(2.0 * 17.0 / 9.0 * geometry(exact)));
+    CHECK(geometry(planOfGlass(4, 5, Transparency::exact)) ==
+          Approx(3.0 / 9.0 * geometry(exact)).epsilon(0.01));
+    // Surfaces beyond the limit of layers are not drawn.
+    CHECK(geometry(planOfGlass(80, 0, Transparency::exact)) ==
+          Approx(20.0 * 65.0 / 9.0 * geometry(exact)));
+}
+
+TEST_CASE("a budget is refused by the layers that a frame peels") {
+    const FramePlan on = planOfGlass(20, 0, scene::Transparency::on),
+                    exact = planOfGlass(20, 0, scene::Transparency::exact);
+    CostBudget budget(2.0 * costOf(on));
+    CHECK(refusal(budget, on) == "done");
+    CHECK(refusal(budget, exact) != "done");
+}
+
 TEST_CASE("a budget is spent by frames and refuses what exceeds it, and says what to lower") {
     const FramePlan frame = planOf(boxes(1), 512, 16);
     const double cost = costOf(frame);

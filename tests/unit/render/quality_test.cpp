@@ -82,6 +82,41 @@ TEST_CASE("more of anything is expected to take longer") {
     }
 }
 
+TEST_CASE("see-through surfaces are expected to take longer, sorted in each pixel longest") {
+    const FrameLoad opaque{1.0e6, 0, 10'000, 1};
+    FrameLoad blended = opaque;
+    blended.seeThrough = 2.0;
+    FrameLoad peeled = blended;
+    peeled.peels = 3.0;
+    CHECK(expectedMs(blended, 4, 0.25) > 2.0 * expectedMs(opaque, 4, 0.25));
+    CHECK(expectedMs(peeled, 4, 0.25) > 3.0 * expectedMs(blended, 4, 0.25));
+    FrameLoad deeper = peeled;
+    deeper.peels = 6.0;
+    CHECK(expectedMs(deeper, 4, 0.25) > 1.5 * expectedMs(peeled, 4, 0.25));
+    // Without antialiasing a pixel is one sample.
+    CHECK(expectedMs(peeled, 1, 0.25) < 2.0 * expectedMs(blended, 1, 0.25));
+}
+
+TEST_CASE("a budget counts a scene's see-through models as they are drawn") {
+    Renderer renderer;
+    const auto expected = [&](const char* opacity, const char* transparency) {
+        render::Job job;
+        job.xml = std::string(
+                      "<world><camera><position x=\"0\" y=\"0\" z=\"4\"/></camera><group>"
+                      "<models><model file=\"box_2_1.3d\" opacity=\"") +
+                  opacity + "\"/></models></group></world>";
+        job.assets = std::make_shared<scene::BundleAssets>();
+        render::applyOption(job.options, "budget_ms", "60000");
+        render::applyOption(job.options, "aa", "4");
+        render::applyOption(job.options, "transparency", transparency);
+        return renderer.render(job).quality->expectedMs;
+    };
+    const double opaque = expected("1", "on");
+    CHECK(expected("0.5", "off") == opaque);
+    CHECK(expected("0.5", "on") > 1.2 * opaque);
+    CHECK(expected("0.5", "exact") > 1.5 * expected("0.5", "on"));
+}
+
 TEST_CASE("what the request or the scene says stays under a budget") {
     Renderer renderer;
     const Picture cheap = renderer.render(spheres("", {{"budget_ms", "0.1"}}));

@@ -12,8 +12,9 @@ ordered_json bound(double value) {
                                       : ordered_json(value);
 }
 
-RubricReader::RubricReader(const json& value, std::string path, const std::string& file)
-    : value_(value), path_(std::move(path)), file_(file) {
+RubricReader::RubricReader(const json& value, std::string path, const std::string& file,
+                           Rename rename)
+    : value_(value), path_(std::move(path)), file_(file), rename_(rename) {
     if (!value.is_object()) fail<"rubric.type/object">(path_);
 }
 

@@ -31,7 +31,11 @@ class RubricReader {
   public:
     static constexpr bool kReads = true, kWrites = false;
 
-    RubricReader(const json& value, std::string path, const std::string& file);
+    /// Gives a message of a rubric its form in another document's family of codes.
+    using Rename = Message (*)(Message message);
+
+    RubricReader(const json& value, std::string path, const std::string& file,
+                 Rename rename = nullptr);
 
     void comment(const std::string& key) { has(key); }
     void text(const std::string& key, std::string& out, const char* = "");
@@ -67,7 +71,7 @@ class RubricReader {
     template <typename Each>
     void object(const std::string& key, Each each) {
         if (!has(key)) return;
-        RubricReader inner(value_.at(key), at(key), file_);
+        RubricReader inner(value_.at(key), at(key), file_, rename_);
         each(inner);
         inner.end();
     }
@@ -76,7 +80,7 @@ class RubricReader {
     void maybe(const std::string& key, std::optional<Value>& out, const Value& usual, const char*,
                Each each) {
         if (!has(key)) return;
-        RubricReader inner(value_.at(key), at(key), file_);
+        RubricReader inner(value_.at(key), at(key), file_, rename_);
         out = usual;
         each(inner, *out);
         inner.end();
@@ -89,7 +93,7 @@ class RubricReader {
         const json& all = listAt(key, fewest, most);
         out.clear();
         for (std::size_t i = 0; i < all.size(); ++i) {
-            RubricReader inner(all[i], at(key) + "/" + std::to_string(i), file_);
+            RubricReader inner(all[i], at(key) + "/" + std::to_string(i), file_, rename_);
             out.push_back(usual);
             each(inner, out.back(), i);
             inner.end();
@@ -117,13 +121,15 @@ class RubricReader {
     template <FixedString kId, FixedString... kNames>
     [[noreturn]] void fail(const std::string& path, const NamedArgument<kNames>&... more) const {
         const std::string& named = path.empty() ? kWhole : path;
-        throw Error(message<kId>("path"_arg = named, more...), {file_, 0, 0}, path);
+        Message fault = message<kId>("path"_arg = named, more...);
+        throw Error(rename_ ? rename_(std::move(fault)) : std::move(fault), {file_, 0, 0}, path);
     }
     static inline const std::string kWhole = "the rubric";
 
     const json& value_;
     std::string path_;
     const std::string& file_;
+    const Rename rename_;
     std::set<std::string> known_;
 };
 

@@ -36,6 +36,15 @@ void readTime(Form& form, const std::string& key, Time& out) {
     out = *time;
 }
 
+/// A key's fault is worded as a rubric's, with a code of its family.
+Message settingsMessage(Message message) {
+    constexpr std::string_view kRubric = "rubric.";
+    message.id = "assignment." + message.id.substr(kRubric.size());
+    for (const MessageRow& row : kServerMessages)
+        if (row.id == message.id) return message;
+    throw std::logic_error("no message " + message.id);
+}
+
 void readSettings(const std::string& text, Assignment& out) {
     json value;
     try {
@@ -46,7 +55,7 @@ void readSettings(const std::string& text, Assignment& out) {
     if (!value.is_object())
         throw Error(message<"assignment.json">("reason"_arg = "it is no object"), {kFile, 0, 0});
     const std::string file = kFile;
-    grade::RubricReader form(value, "", file);
+    grade::RubricReader form(value, "", file, settingsMessage);
     form.text("title", out.title);
     readTime(form, "opens", out.opens);
     readTime(form, "closes", out.closes);

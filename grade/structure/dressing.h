@@ -19,7 +19,7 @@ std::vector<Fix> explainDress(const SearchContext& context, const Outline& mine,
 std::vector<Fix> otherDivisions(const SearchContext& context, const Outline& mine,
                                 const Matching& matching);
 
-/// Returns fixes of the scene's render settings: codes shading.*, background.*, model.culling.
+/// Returns fixes of the scene's render settings: codes shading.*, transparency.*, background.*.
 std::vector<Fix> explainSettings(const SearchContext& context, const Outline& mine, bool isLit);
 
 /// The reference's model with its files where a repaired scene finds them.

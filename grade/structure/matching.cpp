@@ -60,8 +60,9 @@ class Matcher {
         const auto &x = a.model.texture, &y = b.model.texture;
         if (x.has_value() != y.has_value())
             sum += 0.1;
-        else if (x && pictures_.compare(*x, *y) != Turn::none)
+        else if (x && pictures_.compare(*x, *y).turn != Turn::none)
             sum += 0.15;
+        sum += 0.1 * static_cast<double>(std::abs(opacityOf(a) - opacityOf(b)));
         return sum;
     }
 

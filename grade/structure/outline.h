@@ -65,6 +65,11 @@ struct Outline {
     int placeOf(int node, int id) const;
 };
 
+/// Opacity of an item as it is drawn: its material's times its own.
+inline float opacityOf(const Outline::Item& item) {
+    return item.material.opacity * item.model.opacity;
+}
+
 /// Takes a scene apart; errors among its diagnostics name the files of placeholders. Throws Error
 /// as MeshLibrary::get does.
 Outline outlineOf(const render::Prepared& prepared, render::MeshLibrary& meshes);

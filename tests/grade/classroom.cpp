@@ -86,6 +86,20 @@ std::string sheetsXml() {
 </group></world>)";
 }
 
+/// Glass and a lattice before others.
+std::string glassXml() {
+    return std::string("<world>") + kCamera + R"(
+<lights><light type="directional" dirx="1" diry="2" dirz="1.5"/></lights>
+<group><models><model file="plane_6_8.3d"><color><diffuse R="150" G="170" B="120"/></color></model></models>
+ <group><transform><translate x="0" y="0.8" z="-1.2"/></transform>
+  <models><model file="box_1.6_2.3d"><color><diffuse R="190" G="60" B="50"/></color></model></models></group>
+ <group><transform><translate x="-0.8" y="1" z="1"/></transform>
+  <models><model file="sphere_0.9_24_16.3d" opacity="0.35"><color><diffuse R="90" G="140" B="220"/></color></model></models></group>
+ <group><transform><translate x="1.6" y="1" z="0.8"/><rotate angle="90" x="1" y="0" z="0"/></transform>
+  <models><model file="plane_2_1.3d" twoSided="true"><texture file="lattice.png"/></model></models></group>
+</group></world>)";
+}
+
 }  // namespace
 
 std::vector<ReferenceScene> referenceScenes() {
@@ -110,6 +124,9 @@ std::vector<ReferenceScene> referenceScenes() {
                     {"planks.jpg", readFile(root / "torch" / "planks.jpg")}}});
     all.push_back({"made: wires", wiresXml(), {}});
     all.push_back({"made: sheets", sheetsXml(), {}});
+    all.push_back({"made: glass",
+                   glassXml(),
+                   {{"lattice.png", readFile(root / "see-through" / "lattice.png")}}});
     return all;
 }
 

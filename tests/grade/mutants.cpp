@@ -334,6 +334,36 @@ Result wrongColor(Work& work) {
     });
 }
 
+Result opacityMissing(Work& work) {
+    return changeModel(work, [](scene::Model& model) {
+        if (model.opacity == 1.0F) return false;
+        model.opacity = 1.0F;
+        return true;
+    });
+}
+
+Result alphaLost(Work& work) {
+    return changeModel(work, [&](scene::Model& model) {
+        if (!model.texture || model.texture->path.empty()) return false;
+        image::Image image =
+            image::decodeImage(work.files.at(model.texture->path), model.texture->path);
+        if (image::isOpaque(image)) return false;
+        for (std::size_t i = 3; i < image.pixels.size(); i += 4) image.pixels[i] = 255;
+        work.files["solid.png"] = image::encodePng(image);
+        model.texture->file = "solid.png";
+        return true;
+    });
+}
+
+Result transparencyOff(Work& work) {
+    const auto models = modelsOf(work.scene);
+    if (std::none_of(models.begin(), models.end(),
+                     [](const Placed& one) { return one.model->opacity < 1.0F; }))
+        return {};
+    work.scene.settings.transparency = scene::Transparency::off;
+    return written(work);
+}
+
 Result cameraMoved(Work& work) {
     if (!work.scene.camera) return {};
     scene::Camera& camera = *work.scene.camera;
@@ -413,6 +443,9 @@ std::vector<Variant> mutants() {
         {"specular left out", {"material.missing"}, noSpecular},
         {"wrong shininess", {"material.shininess"}, shininess},
         {"wrong colour", {"material.color"}, wrongColor},
+        {"opacity left out", {"material.opacity"}, opacityMissing},
+        {"alpha of a texture lost", {"texture.alpha"}, alphaLost},
+        {"transparency off", {"transparency.mode"}, transparencyOff},
         {"camera moved", {"camera.position"}, cameraMoved},
         {"field of view", {"camera.fov"}, fieldOfView},
         {"slices and stacks swapped", {"model.swapped-arguments"}, slicesAndStacks},

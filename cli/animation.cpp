@@ -3,20 +3,17 @@
 #include <unistd.h>
 
 #include <cmath>
-#include <condition_variable>
 #include <cstdio>
-#include <deque>
-#include <exception>
 #include <iostream>
-#include <mutex>
 #include <numbers>
-#include <thread>
+#include <optional>
 
 #include "cli/command.h"
 #include "cli/files.h"
 #include "cli/messages.h"
 #include "core/text.h"
 #include "image/format.h"
+#include "image/frame_encoder.h"
 #include "image/sheet.h"
 #include "render/turn.h"
 
@@ -73,88 +70,18 @@ std::optional<image::AnimationFormat> animationFormat(const std::string& path,
     return std::nullopt;
 }
 
-namespace {
-
-/// Encodes frames in their order in a thread, at most kWaiting behind their drawing.
-class FrameEncoder {
-  public:
-    explicit FrameEncoder(image::AnimationWriter& animation)
-        : animation_(animation), thread_([this] { run(); }) {}
-    ~FrameEncoder() { end(); }
-    FrameEncoder(const FrameEncoder&) = delete;
-    FrameEncoder& operator=(const FrameEncoder&) = delete;
-
-    /// Throws the exception of an earlier frame.
-    void add(image::Image frame) {
-        std::unique_lock lock(mutex_);
-        changed_.wait(lock, [this] { return frames_.size() < kWaiting || failure_; });
-        if (failure_) std::rethrow_exception(failure_);
-        frames_.push_back(std::move(frame));
-        changed_.notify_all();
-    }
-    void finish() {
-        end();
-        if (failure_) std::rethrow_exception(failure_);
-    }
-
-  private:
-    static constexpr std::size_t kWaiting = 3;
-
-    void end() {
-        if (!thread_.joinable()) return;
-        {
-            const std::lock_guard lock(mutex_);
-            isLast_ = true;
-        }
-        changed_.notify_all();
-        thread_.join();
-    }
-    void run() {
-        for (;;) {
-            image::Image frame;
-            {
-                std::unique_lock lock(mutex_);
-                changed_.wait(lock, [this] { return !frames_.empty() || isLast_; });
-                if (frames_.empty()) return;
-                frame = std::move(frames_.front());
-                frames_.pop_front();
-            }
-            changed_.notify_all();
-            try {
-                animation_.add(frame);
-            } catch (...) {
-                const std::lock_guard lock(mutex_);
-                failure_ = std::current_exception();
-                frames_.clear();
-                changed_.notify_all();
-                return;
-            }
-        }
-    }
-
-    image::AnimationWriter& animation_;
-    std::mutex mutex_;
-    std::condition_variable changed_;
-    std::deque<image::Image> frames_;
-    std::exception_ptr failure_;
-    bool isLast_ = false;
-    std::thread thread_;
-};
-
-}  // namespace
-
 render::Picture renderAnimation(render::Job job, const Schedule& schedule, const std::string& path,
                                 Outputs& outputs, render::GlSource gl) {
     const bool files = framePath(path, 0) != path;
     const std::optional<image::AnimationFormat> format = animationFormat(path, job.options.format);
     if (!files && !format) throw UsageError(message<"usage/frames-format">());
     std::unique_ptr<image::AnimationWriter> animation;
-    std::unique_ptr<FrameEncoder> encoder;
+    std::optional<image::FrameEncoder> encoder;
     if (!files) {
         animation = image::specOf(*format).write({schedule.frames, schedule.fps,
                                                   job.options.background == "transparent",
                                                   job.options.quality});
-        encoder = std::make_unique<FrameEncoder>(*animation);
+        encoder.emplace(*animation);
     }
     render::Renderer renderer(gl);
     render::Picture last;

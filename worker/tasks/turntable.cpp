@@ -2,6 +2,7 @@
 
 #include <glm/gtc/constants.hpp>
 
+#include "image/frame_encoder.h"
 #include "render/plan/cost.h"
 #include "render/turn.h"
 #include "worker/scene_facts.h"
@@ -22,10 +23,13 @@ void appendPart(std::string& body, const render::Picture& picture) {
 render::Picture TurntableTask::run(const Request& request, WorkerState& state) {
     render::Job job = request.job;
     std::unique_ptr<image::AnimationWriter> animation;
-    if (request.animation)
+    std::optional<image::FrameEncoder> encoder;
+    if (request.animation) {
         animation = image::specOf(*request.animation)
                         .write({request.frames, request.fps,
                                 job.options.background == "transparent", job.options.quality});
+        encoder.emplace(*animation);
+    }
     render::Picture all;
     std::string body;
     state.renderer.budget().expectFrames(request.frames);
@@ -36,13 +40,14 @@ render::Picture TurntableTask::run(const Request& request, WorkerState& state) {
         if (animation) {
             image::Image image;
             frame = state.renderer.draw(job, image);
-            animation->add(image);
+            encoder->add(std::move(image));
         } else {
             frame = state.renderer.render(job);
             appendPart(body, frame);
         }
         if (i == 0) all = std::move(frame);
     }
+    if (encoder) encoder->finish();
     all.bytes = animation ? animation->finish() : body + "--" + kFrameBoundary + "--\r\n";
     return all;
 }

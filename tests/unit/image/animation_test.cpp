@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "image/format.h"
+#include "image/frame_encoder.h"
 #include "image/image_file.h"
 
 using namespace farol;
@@ -125,6 +126,27 @@ TEST_CASE("an animated WebP holds its frames and times") {
          at = bytes.find("ANMF", at + 4))
         times.push_back(u16At(bytes, at + 8 + 12));
     CHECK(times == std::vector<int>{42, 41, 42});
+}
+
+TEST_CASE("frames that are encoded beside their drawing give the same bytes, and their errors") {
+    const auto frameOf = [](int i) { return plain(24, 16, static_cast<std::uint8_t>(11 * i)); };
+    const auto alone = image::writeApng({20, 25.0});
+    for (int i = 0; i < 20; ++i) alone->add(frameOf(i));
+    const auto beside = image::writeApng({20, 25.0});
+    {
+        image::FrameEncoder encoder(*beside);
+        for (int i = 0; i < 20; ++i) encoder.add(frameOf(i));
+        encoder.finish();
+    }
+    CHECK(beside->finish() == alone->finish());
+
+    const auto few = image::writeApng({2, 25.0});
+    image::FrameEncoder encoder(*few);
+    const auto addAll = [&] {
+        for (int i = 0; i < 20; ++i) encoder.add(frameOf(i));
+        encoder.finish();
+    };
+    CHECK_THROWS_AS(addAll(), std::invalid_argument);
 }
 
 TEST_CASE("every writer refuses frames of another size, and too few or too many") {

@@ -30,7 +30,7 @@ std::string leaf(int aside, std::uint8_t outside = 0, std::uint8_t green = 150) 
 }
 
 /// A box of glass before a leaf on a card; line 7 is the box, line 9 the leaf's texture.
-std::string scene(const std::string& glass, const std::string& render = "<render/>") {
+std::string sceneXml(const std::string& glass, const std::string& render = "<render/>") {
     return R"(<world><camera><position x="0" y="0" z="7"/><lookAt x="0" y="0" z="0"/></camera>
 <lights><light type="directional" dirx="1" diry="2" dirz="3"/></lights>
 )" + render +
@@ -55,8 +55,9 @@ grade::Grade gradeOf(const std::string& reference, const std::string& xml,
         made.job.assets = std::make_shared<scene::BundleAssets>(with);
         return made;
     };
-    return grader.grade(subject(reference, {{"leaf.png", leaf(0)}}), subject(xml, files),
-                        grade::defaultRubric());
+    grade::Rubric rubric = grade::defaultRubric();
+    rubric.reveal = grade::Reveal::values;
+    return grader.grade(subject(reference, {{"leaf.png", leaf(0)}}), subject(xml, files), rubric);
 }
 
 const grade::GradedCause& onlyCause(const grade::Grade& grade) {
@@ -68,7 +69,7 @@ const grade::GradedCause& onlyCause(const grade::Grade& grade) {
     return grade.causes[0];
 }
 
-const std::string kGlass = scene(R"(opacity="0.4")");
+const std::string kGlass = sceneXml(R"(opacity="0.4")");
 
 }  // namespace
 
@@ -83,18 +84,18 @@ TEST_CASE("another opacity is a cause, with its line and both values") {
           Row{R"(opacity="0.6")", R"(opacity="0.2")", "opacity is too small"},
           Row{"", R"(opacity="0.4")", "it is transparent, and should be opaque"}}) {
         INFO(row.given);
-        const grade::Grade grade = gradeOf(scene(row.expected), scene(row.given));
+        const grade::Grade grade = gradeOf(sceneXml(row.expected), sceneXml(row.given));
         const grade::GradedCause& cause = onlyCause(grade);
         CHECK(cause.code == "material.opacity");
         CHECK_THAT(cause.message.text, Catch::Contains(row.words));
-        CHECK(cause.where.line == 7);
+        CHECK(cause.places[0].where.line == 7);
     }
-    CHECK_THAT(gradeOf(kGlass, scene(R"(opacity="0.8")")).causes[0].message.text,
+    CHECK_THAT(gradeOf(kGlass, sceneXml(R"(opacity="0.8")")).causes[0].message.text,
                Catch::Contains("0.8") && Catch::Contains("0.4"));
 }
 
 TEST_CASE("the opacity of a material and of its model are one") {
-    std::string byColor = scene("");
+    std::string byColor = sceneXml("");
     byColor.replace(byColor.find(R"(G="220")"), 7, R"(G="220" A="0.4")");
     const grade::Grade grade = gradeOf(kGlass, byColor);
     CHECK(grade.causes.empty());
@@ -112,7 +113,7 @@ TEST_CASE("other transparent parts of a texture are a cause") {
         const grade::GradedCause& cause = onlyCause(grade);
         CHECK(cause.code == "texture.alpha");
         CHECK_THAT(cause.message.text, Catch::Contains(row.words));
-        CHECK(cause.where.line == 9);
+        CHECK(cause.places[0].where.line == 9);
     }
     // Colours that nobody sees do not differ; those of the leaf do.
     CHECK(onlyCause(gradeOf(kGlass, kGlass, {{"leaf.png", leaf(0, 0, 250)}})).code ==
@@ -121,23 +122,25 @@ TEST_CASE("other transparent parts of a texture are a cause") {
 
 TEST_CASE("transparency that is off is one cause for the scene") {
     const grade::Grade off =
-        gradeOf(kGlass, scene(R"(opacity="0.4")", R"(<render transparency="off"/>)"));
+        gradeOf(kGlass, sceneXml(R"(opacity="0.4")", R"(<render transparency="off"/>)"));
     const grade::GradedCause& cause = onlyCause(off);
     CHECK(cause.code == "transparency.mode");
     CHECK_THAT(cause.message.text, Catch::Contains("transparency is off"));
     // The other way round; and opacities that the reference does not show are none.
-    const std::string opaque = scene(R"(opacity="0.4")", R"(<render transparency="off"/>)");
+    const std::string opaque = sceneXml(R"(opacity="0.4")", R"(<render transparency="off"/>)");
     CHECK(onlyCause(gradeOf(opaque, kGlass)).code == "transparency.mode");
-    CHECK(gradeOf(opaque, scene("", R"(<render transparency="off"/>)")).causes.empty());
-    CHECK(gradeOf(kGlass, scene(R"(opacity="0.4")", R"(<render transparency="exact"/>)"))
+    CHECK(gradeOf(opaque, sceneXml("", R"(<render transparency="off"/>)")).causes.empty());
+    CHECK(gradeOf(kGlass, sceneXml(R"(opacity="0.4")", R"(<render transparency="exact"/>)"))
               .causes.empty());
 }
 
 TEST_CASE("causes of opacity are worded in each language") {
-    const grade::Grade grade = gradeOf(kGlass, scene(""));
-    const Message& message = onlyCause(grade).message;
-    CHECK_THAT(textIn(Language::pt, message), Catch::Contains("é opaco e devia ser transparente"));
-    CHECK_THAT(textIn(Language::es, message),
+    const grade::Grade grade = gradeOf(kGlass, sceneXml(""));
+    const grade::GradedCause& cause = onlyCause(grade);
+    CHECK_THAT(grade::textIn(Language::pt, cause),
+               Catch::Contains("é opaco e devia ser transparente"));
+    CHECK_THAT(grade::textIn(Language::es, cause),
                Catch::Contains("es opaco y debería ser transparente"));
-    CHECK_THAT(textIn(Language::cs, message), Catch::Contains("je neprůhledné, má být průhledné"));
+    CHECK_THAT(grade::textIn(Language::cs, cause),
+               Catch::Contains("je neprůhledné, má být průhledné"));
 }

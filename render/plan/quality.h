@@ -20,8 +20,8 @@ struct FrameLoad {
     double writtenTriangles = 0.0;  ///< of the others
     double lights = 0.0;
     double shadowLights = 0.0, shadowMaps = 0.0;  ///< of the lights, with shadows=map
-    double seeThrough = 0.0;  ///< surfaces blended over each pixel, on average
-    double peels = 0.0;       ///< draws of them all that sort each pixel's; 0: sorted by model
+    double seeThrough = 0.0;                      ///< surfaces blended over each pixel, on average
+    double peels = 0.0;  ///< draws of them all that sort each pixel's; 0: sorted by model
 };
 
 /// Expected time of a frame, ms; `samples` 1, 2, 4, 8 or 16.

@@ -11,6 +11,7 @@ import { msg, t } from '../words.ts';
 import { Icon, type IconName } from './icons.tsx';
 import { say } from './ui.tsx';
 import { Numbers } from './numbers.tsx';
+import { double, remove, TreeTools } from './tree_tools.tsx';
 import { openPanel } from './viewer_page.tsx';
 
 const icons: Record<NodeKind, IconName> = {
@@ -132,6 +133,10 @@ function Tree({ viewer, nodes, rows }: { viewer: Viewer; nodes: readonly TreeNod
     if (row) viewer.selected.value = row.node.element.start;
   };
   const press = (event: KeyboardEvent): void => {
+    if (event.key.toLowerCase() === 'd' && (event.ctrlKey || event.metaKey)) {
+      event.preventDefault();
+      return double(viewer, rows[at]?.node.element);
+    }
     if (event.altKey || event.ctrlKey || event.metaKey) return;
     const row = rows[at], mark = row && hideable.includes(row.node.kind) ? row.node : null;
     const page = Math.max(1, Math.floor(size.height / size.row) - 1);
@@ -141,6 +146,7 @@ function Tree({ viewer, nodes, rows }: { viewer: Viewer; nodes: readonly TreeNod
       Home: () => choose(rows[0]), End: () => choose(rows[rows.length - 1]),
       ArrowRight: () => (row?.open === false ? setOpen(row.path, true) : row?.open && choose(rows[at + 1])),
       ArrowLeft: () => (row?.open && filter.value === '' ? setOpen(row.path, false) : row?.node.parent && (viewer.selected.value = row.node.parent.element.start)),
+      Delete: () => remove(viewer, row?.node.element),
       Enter: () => row && openPanel('xml'), Escape: () => (viewer.selected.value = null),
       h: () => mark && toggleMark(viewer, mark, 'hidden'), l: () => mark && toggleMark(viewer, mark, 'locked'),
     };
@@ -185,6 +191,7 @@ export function TreePanel({ viewer }: { viewer: Viewer }) {
     <div class="tree-panel">
       <div class="tree-head">
         <input type="search" aria-label={t('Find in the tree')} placeholder={t('Find')} value={filter.value} onInput={(event) => (filter.value = event.currentTarget.value)} />
+        <TreeTools viewer={viewer} element={selected?.element} />
       </div>
       {rows.length > 0 ? <Tree viewer={viewer} nodes={nodes} rows={rows} /> : <p class="note">{words ? t('Nothing of that name.') : t('The document has no scene.')}</p>}
       {selected && (

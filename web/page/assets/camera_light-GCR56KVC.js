@@ -1,1 +1,0 @@
-import{a,b,c}from"./chunk-DNLQYNZZ.js";import"./chunk-XXIUKFM3.js";import"./chunk-HHAN3NLB.js";import"./chunk-KVWACPON.js";import"./chunk-RXPDOPUC.js";import"./chunk-YXPABMPN.js";export{a as cameraLightOf,b as turnCameraLight,c as turnLight};

@@ -24,6 +24,7 @@ export function keyAction(key: string, viewer: Viewer, actions: Actions): (() =>
     m: () => viewer.toggleWalk(),
     t: () => viewer.toggleTurntable(),
     1: () => (viewer.tool.value = 'select'), 2: () => (viewer.tool.value = 'move'), 3: () => (viewer.tool.value = 'turn'), 4: () => (viewer.tool.value = 'scale'),
+    5: () => (viewer.tool.value = 'measure'),
     Escape: () => (viewer.selected.value = null),
     ',': () => viewer.stepTime(-1),
     '.': () => viewer.stepTime(1),

@@ -249,3 +249,34 @@ test('no serious finding of axe with handles of each kind, light and dark, wide 
     await view.close();
   }
 });
+
+test('two clicks measure a distance in world units, by the key alone without a selection', async () => {
+  const two = redBall('<transform><translate x="-2" y="0" z="0"/></transform>').replace('</world>',
+    redBall('<transform><translate x="2" y="0" z="-1"/></transform>').match(/<group[\s\S]*<\/group>/)[0] + '</world>');
+  const view = await openDraft(two, { bypassCSP: true });
+  await view.page.locator('.stage').focus();
+  await view.page.keyboard.press('5');
+  const note = view.page.locator('.gizmo-note');
+  await note.getByText('Click the first place to measure from.').waitFor();
+  const stage = await view.page.locator('.stage').boundingBox(), focal = stage.height / 2 / Math.tan(Math.PI / 6);
+  // The fronts of the balls: rays from the eye at (0, 0, 10) through their middles meet them half a unit before.
+  const front = (x, z) => {
+    const length = Math.hypot(x, z - 10), share = (length - 0.5) / length;
+    return [x * share, 10 + (z - 10) * share];
+  };
+  const [a, b] = [front(-2, 0), front(2, -1)];
+  const click = ([x, z]) => view.page.mouse.click(stage.x + stage.width / 2 + (focal * x) / (10 - z), stage.y + stage.height / 2);
+  await click(a);
+  await note.getByText('Click the second place.').waitFor({ timeout: 20000 });
+  await click(b);
+  await note.getByText('Distance').waitFor({ timeout: 20000 });
+  const text = await note.innerText(), [, distance, error] = text.match(/Distance ([\d.]+), off by at most ([\d.]*\d)/).map(Number);
+  // A click is within a pixel, which is 0.013 units there.
+  assert.ok(Math.abs(distance - Math.hypot(a[0] - b[0], a[1] - b[1])) < 0.05, text);
+  assert.ok(error > 0 && error < 0.01, text);
+  assert.equal(await view.page.locator('.measure circle').count(), 2);
+  assert.deepEqual(await axeFindings(view.page), []);
+  await view.page.mouse.click(stage.x + 30, stage.y + stage.height - 30);
+  await view.page.getByText('There is nothing to measure to at this place.').waitFor({ timeout: 20000 });
+  await view.close();
+});

@@ -102,7 +102,7 @@ function labelOf(handle: Handle): string | null {
 
 const numberOfHandle = (handle: Handle): number => (handle.tool === 'turn' ? (handle.ring.angle ?? 0) : (handle.target.value[handle.along[0] as number] as number));
 
-function useStageSize(viewer: Viewer): { width: number; height: number } {
+export function useStageSize(viewer: Viewer): { width: number; height: number } {
   const measure = () => viewer.canvas?.size() ?? { width: 1, height: 1 };
   const [size, setSize] = useState(measure);
   useEffect(() => {

@@ -8,6 +8,7 @@ import { Tool } from './ui.tsx';
 
 const tools: readonly (readonly [SceneTool, IconName, string, string])[] = [
   ['select', 'cursor', msg('Select without handles'), '1'], ['move', 'move', msg('Move'), '2'], ['turn', 'turn', msg('Turn'), '3'], ['scale', 'scale', msg('Scale'), '4'],
+  ['measure', 'ruler', msg('Measure a distance'), '5'],
 ];
 
 /** Why there are no handles; empty where there are some. */
@@ -22,7 +23,7 @@ export function whyNoHandles(viewer: Viewer): string {
 }
 
 export function GizmoBar({ viewer }: { viewer: Viewer }) {
-  const { isOn, steps } = snapping.value, why = viewer.tool.value === 'select' ? '' : whyNoHandles(viewer);
+  const { isOn, steps } = snapping.value, why = ['select', 'measure'].includes(viewer.tool.value) ? '' : whyNoHandles(viewer);
   return (
     <>
       <div class="gizmo-bar" role="toolbar" aria-label={t('Handles of what is selected')} aria-orientation="vertical">

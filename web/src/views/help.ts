@@ -15,6 +15,8 @@ export const helpKeys: readonly (readonly [string, string])[] = [
   ['O P', msg('Fast or reference quality; again for the scene’s own')],
   ['T', msg('Turntable')],
   ['Click', msg('Selects the model’s line in the XML')],
+  ['1 2 3 4', msg('Without handles, or handles that move, turn and scale what is selected')],
+  ['5', msg('Measure a distance between two clicks')],
   ['Ctrl+Z', msg('Undo: editor, inspector, files and camera; Ctrl+Shift+Z: redo')],
   ['?', msg('This list')],
 ];

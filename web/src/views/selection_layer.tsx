@@ -1,4 +1,4 @@
-// What lies over the image for the element that is selected: its outline.
+// What lies over the image: the outline and the handles of what is selected, and a measurement.
 import { useEffect, useRef } from 'preact/hooks';
 import { elementsDrawn, idImage } from '../scene/id_image.ts';
 import { isWithin } from '../scene/hide.ts';
@@ -6,6 +6,7 @@ import { outlineOf } from '../gizmo/outline.ts';
 import type { Viewer } from '../scene/viewer.ts';
 import { Gizmo } from './gizmo.tsx';
 import { GizmoBar } from './gizmo_bar.tsx';
+import { MeasureLayer } from './measure_layer.tsx';
 
 /** The outline of the view on show; null where nothing of the element is visible. */
 async function outline(viewer: Viewer, selected: number, ratio: number): Promise<ImageData | null> {
@@ -47,6 +48,7 @@ export const SelectionLayer = ({ viewer }: { viewer: Viewer }) => (
   <>
     <Outline viewer={viewer} />
     <Gizmo viewer={viewer} />
+    {viewer.tool.value === 'measure' && <MeasureLayer viewer={viewer} />}
     <GizmoBar viewer={viewer} />
   </>
 );

@@ -140,6 +140,10 @@ export function ViewerPage({ id, view }: { id: string | null; view: URLSearchPar
     document.title = `${title} · Farol`;
   }, [title]);
   const pick = async (x: number, y: number): Promise<void> => {
+    if (viewer.tool.value === 'measure') {
+      const { measureAt } = await import('../scene/measure.ts');
+      return measureAt(viewer, x, y);
+    }
     const { pickModel } = await import('../scene/pick.ts');
     await pickModel(viewer, x, y);
   };
@@ -168,7 +172,7 @@ export function ViewerPage({ id, view }: { id: string | null; view: URLSearchPar
         <Toolbar viewer={viewer} />
         <div class={`stage-area is-${viewer.state.value}`}>
           <Stage viewer={viewer} preview={preview} actions={{ pick: (x, y) => void pick(x, y), light: (a, b) => void light(a, b) }} />
-          <div class="selection-layer">{viewer.selected.value !== null && viewer.pictured.value && <SelectionLayer viewer={viewer} />}</div>
+          <div class="selection-layer">{(viewer.selected.value !== null || viewer.tool.value === 'measure') && viewer.pictured.value && <SelectionLayer viewer={viewer} />}</div>
           <div class="stage-notes">
             <StageState viewer={viewer} onPick={showFinding} />
             <Notice viewer={viewer} />

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <new>
 
 namespace farol::server::http {
 namespace {
@@ -61,6 +62,16 @@ void BodyReader::lineDone() {
 
 std::size_t BodyReader::feed(std::string_view bytes) {
     std::size_t at = 0;
+    try {
+        read(bytes, at);
+    } catch (const std::bad_alloc&) {
+        std::string().swap(body_);
+        state_ = State::noMemory;
+    }
+    return at;
+}
+
+void BodyReader::read(std::string_view bytes, std::size_t& at) {
     while (state_ == State::more && at < bytes.size()) {
         if (part_ == Part::data) {
             const std::size_t count = std::min<std::uint64_t>(left_, bytes.size() - at);
@@ -82,7 +93,6 @@ std::size_t BodyReader::feed(std::string_view bytes) {
             line_ += c;
         }
     }
-    return at;
 }
 
 }  // namespace farol::server::http

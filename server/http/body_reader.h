@@ -17,6 +17,7 @@ class BodyReader {
         more,
         whole,
         tooLarge,  ///< more than `maxBytes` are there or announced; no more is read
+        noMemory,  ///< there was none for it; its bytes are freed and no more are read
         broken     ///< not a body, or it will not become whole
     };
 
@@ -33,6 +34,7 @@ class BodyReader {
   private:
     enum class Part { data, dataEnd, sizeLine, end };
 
+    void read(std::string_view bytes, std::size_t& at);
     void append(std::string_view bytes);
     void lineDone();
 

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <cstdio>
 #include <ctime>
+#include <new>
 #include <random>
 
 #include "core/error.h"
@@ -84,6 +85,7 @@ class Arrived final : public Body {
         const State state = std::exchange(incoming_.bodyState, State::broken);
         if (state == State::tooLarge || incoming_.body.size() > maxBytes)
             throw Error(message<"limit.body">("max"_arg = maxBytes));
+        if (state == State::noMemory) throw std::bad_alloc();
         if (state != State::whole) throw Error(message<"http.body">());
         return std::move(incoming_.body);
     }

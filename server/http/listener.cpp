@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <new>
 #include <stdexcept>
 #include <system_error>
 
@@ -170,15 +171,27 @@ void Listener::look(int fd) {
         client = found->second.get();
         phase = client->phase;
     }
-    if (phase == Phase::lingering) return linger(*client);
-    if (phase == Phase::holding) return giveUp(*client, Phase::sending);  // it went away
-    client->link.flush();
-    count(*client);
-    if (phase != Phase::sending) return receive(*client);
-    if (client->link.isPending())
-        watch(*client);
+    try {
+        move(*client, phase);
+    } catch (const std::bad_alloc&) {
+        {
+            const std::lock_guard lock(mutex_);
+            ++closed_.memory;
+        }
+        drop(*client);
+    }
+}
+
+void Listener::move(Client& client, Phase phase) {
+    if (phase == Phase::lingering) return linger(client);
+    if (phase == Phase::holding) return giveUp(client, Phase::sending);  // it went away
+    client.link.flush();
+    count(client);
+    if (phase != Phase::sending) return receive(client);
+    if (client.link.isPending())
+        watch(client);
     else
-        activate(*client);
+        activate(client);
 }
 
 void Listener::receive(Client& client) {

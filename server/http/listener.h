@@ -95,6 +95,7 @@ class Listener {
     void refuse(int fd, long& counter);
     void accept(bool isOn);
     void look(int fd);
+    void move(Client& client, Phase phase);
     void receive(Client& client);
     void linger(Client& client);
     void sweep();

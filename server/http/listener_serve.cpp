@@ -63,8 +63,8 @@ void Listener::activate(Client& client) {
     count(client);
     {
         const std::lock_guard lock(mutex_);
+        queue_.push_back(&client);  // first: it may find no memory
         client.phase = Phase::active;
-        queue_.push_back(&client);
     }
     ready_.notify_one();
 }

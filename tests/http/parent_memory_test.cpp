@@ -114,8 +114,11 @@ TEST_CASE("a request for which the service has no memory is answered 503, the ne
         REQUIRE(prlimit(daemon.pid(), RLIMIT_AS, &both, nullptr) == 0);
     };
     addresses((static_cast<rlim_t>(statusMiB(daemon.pid(), "VmSize")) + 8) * kMiB);
-    CHECK(statusOf(port, large) == 503);
-    CHECK(statusOf(port, small) == 200);
+    // Where it runs out differs: while the body arrives, or while it is packed.
+    for (int i = 0; i < 8; ++i) {
+        CHECK(statusOf(port, large) == 503);
+        CHECK(statusOf(port, small) == 200);
+    }
     addresses(RLIM_INFINITY);
     CHECK(statusOf(port, large) == 200);
 #endif

@@ -25,8 +25,8 @@ const documents = {
 const reportFiles = {
   name: 'report files',
   setup({ onResolve, onLoad }) {
-    onResolve({ filter: /^report:/ }, ({ path }) => ({ path: join(here, '../grade/report', path.slice('report:'.length)), namespace: 'report' }));
-    onLoad({ filter: /./, namespace: 'report' }, ({ path }) => ({ contents: readFileSync(path, 'utf8'), loader: 'text' }));
+    onResolve({ filter: /^report:/ }, ({ path }) => ({ path: path.slice('report:'.length), namespace: 'report' })); // names of chunks hash this
+    onLoad({ filter: /./, namespace: 'report' }, ({ path }) => ({ contents: readFileSync(join(here, '../grade/report', path), 'utf8'), loader: 'text' }));
   },
 };
 

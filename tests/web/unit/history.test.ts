@@ -1,4 +1,5 @@
 import assert from 'node:assert/strict';
+import { File } from 'node:buffer'; // no global before Node.js 20
 import { test } from 'node:test';
 import { History, stepGapMs, type Moment } from '../../../web/src/scene/history.ts';
 import { noMarks } from '../../../web/src/scene/marks.ts';

@@ -38,6 +38,8 @@ before(async () => {
   const { default: puppeteer } = requirePackage('puppeteer-core');
   browser = await puppeteer.launch({
     browser: 'firefox', protocol: 'webDriverBiDi', executablePath: firefox, headless: true,
+    // The window's own size: older releases have no command for a viewport.
+    defaultViewport: null, args: ['--width=1280', '--height=900'],
     extraPrefsFirefox: { 'intl.accept_languages': 'en-US, en', 'app.update.auto': false, 'toolkit.telemetry.enabled': false },
   });
 });
@@ -58,7 +60,6 @@ async function open(hash) {
   page.on('console', (message) => {
     if (message.type() === 'error') faults.push(message.text());
   });
-  await page.setViewport({ width: 1280, height: 800 });
   await page.goto(`${url}/${hash}`);
   return { page, images, faults, close: async () => (await page.close(), assert.deepEqual(faults, [])) };
 }
@@ -74,6 +75,15 @@ async function settled({ page, images }) {
     const last = images.at(-1);
     calm = last && !last.moving && last.seq === seq ? calm + 1 : 0;
   }
+}
+
+/** Until a function of the page returns true. Older releases hold puppeteer's own waiting to the page's policy. */
+async function until(page, holds) {
+  for (let i = 0; i < 200; ++i) {
+    if (await page.evaluate(holds)) return;
+    await new Promise((done) => setTimeout(done, 100));
+  }
+  assert.fail(`it did not come to ${holds}`);
 }
 
 /** Colours of a coarse grid of the canvas. */
@@ -127,7 +137,7 @@ test('Firefox: the editor draws what is typed, and undo takes it back', { skip }
   for (let i = 0; i < line; ++i) await page.keyboard.press('ArrowDown');
   await page.keyboard.press('End');
   await page.keyboard.type('<background color="#204060"/>');
-  await page.waitForFunction(() => document.querySelector('.editor-foot .note').textContent.startsWith('Edited'));
+  await until(page, () => document.querySelector('.editor-foot .note').textContent.startsWith('Edited'));
   await settled(view);
   const edited = await colours(page);
   assert.ok(edited.includes('32,64,96,255'), [...new Set(edited)].join(' '));
@@ -141,11 +151,11 @@ test('Firefox: another language, sharing and the keys', { skip }, async () => {
   const view = await open('#/scene/torch'), { page, close } = view;
   await settled(view);
   await page.select('.language select', 'es');
-  await page.waitForFunction(() => document.querySelector('.toolbar .tool').getAttribute('aria-label') === 'Deshacer');
+  await until(page, () => document.querySelector('.toolbar .tool').getAttribute('aria-label') === 'Deshacer');
   await page.click('.toolbar .tool.worded');
   await page.waitForSelector('dialog.share[open]');
   await page.keyboard.press('Escape');
-  await page.waitForFunction(() => !document.querySelector('dialog.share'));
+  await until(page, () => !document.querySelector('dialog.share'));
   await page.focus('.stage');
   await page.keyboard.type('?');
   await page.waitForSelector('dialog.help[open]');

@@ -34,7 +34,7 @@ export function targetsNow(viewer: Viewer): { text: string; targets: Targets; is
   return { text, isLocked, targets: targetsOf({ text, roots }, element, viewer.clock.time.value) };
 }
 
-/** Applies edits of a text of before: what was done to it since is taken back. */
+/** Applies edits to an earlier text: later changes of it are undone. */
 export function editFrom(viewer: Viewer, text: string, edits: readonly Edit[], how: 'dragging' | 'done'): void {
   viewer.edit(applyEdits(text, edits), how);
 }

@@ -11,6 +11,7 @@
 #include "image/format.h"
 #include "image/image_file.h"
 #include "render/gl/library.h"
+#include "render/gl/llvmpipe.h"
 #include "render/gl/painter.h"
 #include "render/plan/background.h"
 #include "render/plan/camera.h"
@@ -136,7 +137,10 @@ Diagnostics checkSurroundings(const scene::Scene& scene, const PictureOptions& o
 
 struct Renderer::State {
     explicit State(GlSource from)
-        : source(from), library(std::async(std::launch::async, gl::loadLibraries, from)) {}
+        : source(from) {
+        gl::setMesaVariables(from);
+        library = std::async(std::launch::async, gl::loadLibraries, from);
+    }
 
     const GlSource source;
     std::future<void> library;  ///< of the GL: it is loaded beside other work

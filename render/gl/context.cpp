@@ -8,6 +8,7 @@
 
 #include "render/gl/egl_context.h"
 #include "render/gl/library.h"
+#include "render/gl/llvmpipe.h"
 #include "render/gl/objects.h"
 #include "render/gl/osmesa_context.h"
 
@@ -90,6 +91,7 @@ GlFacts askFacts(const Api& api) {
 }
 
 std::unique_ptr<Context> createContext(GlSource source) {
+    setMesaVariables(source);
     switch (resolveSource(source)) {
         case GlSource::osmesa:
             return createOsMesaContext();

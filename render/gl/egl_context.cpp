@@ -5,7 +5,6 @@
 #include <EGL/eglext.h>
 
 #include <array>
-#include <cstdlib>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -84,11 +83,6 @@ EGLDisplay deviceDisplay(const Egl& egl, bool onGpu) {
 }
 
 EGLDisplay openDisplay(const Egl& egl, bool onGpu) {
-    // Mesa's loader reads it with each display; without it a GPU would be taken where there is one.
-    if (onGpu)
-        unsetenv("LIBGL_ALWAYS_SOFTWARE");
-    else
-        setenv("LIBGL_ALWAYS_SOFTWARE", "true", 1);
     if (!onGpu) {
         const EGLDisplay display =
             egl.getPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
@@ -104,7 +98,6 @@ EGLDisplay openDisplay(const Egl& egl, bool onGpu) {
 class EglContext final : public Context {
   public:
     explicit EglContext(bool onGpu) {
-        chooseExactFilters();
         // Never terminated: other contexts of the process share it.
         display_ = openDisplay(egl_, onGpu);
         const std::string name = onGpu ? "egl:gpu" : "egl";

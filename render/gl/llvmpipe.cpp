@@ -1,13 +1,15 @@
 #include "render/gl/llvmpipe.h"
 
 #include <cstdlib>
-#include <mutex>
 
 namespace farol::render::gl {
 
-void chooseExactFilters() {
-    static std::once_flag once;
-    std::call_once(once, [] { setenv("GALLIVM_PERF", "no_aos_sampling", 0); });
+void setMesaVariables(GlSource source) {
+    setenv("GALLIVM_PERF", "no_aos_sampling", 0);
+    if (source == GlSource::eglGpu)
+        unsetenv("LIBGL_ALWAYS_SOFTWARE");
+    else
+        setenv("LIBGL_ALWAYS_SOFTWARE", "true", 1);
 }
 
 }  // namespace farol::render::gl

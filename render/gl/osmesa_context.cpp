@@ -24,7 +24,6 @@ class OsMesaContext final : public Context {
         : library_(kOsMesaLibrary),
           makeCurrent_(library_.function<MakeCurrent>("OSMesaMakeCurrent")),
           destroy_(library_.function<DestroyContext>("OSMesaDestroyContext")) {
-        chooseExactFilters();
         const std::array<int, 11> attributes{
             kFormat,       GL_RGBA, kDepthBits,    0, kProfile, kCoreProfile,
             kMajorVersion, 4,       kMinorVersion, 5, 0};

@@ -1,8 +1,13 @@
 #include "render/texture_prefetch.h"
 
+#include <unistd.h>
+
 #include <atomic>
 #include <catch2/catch.hpp>
+#include <cstdlib>
+#include <string>
 
+#include "render/renderer.h"
 #include "tests/support/errors.h"
 
 using namespace farol;
@@ -78,4 +83,21 @@ TEST_CASE("images over the bound of pixels at once, and chess boards, are not de
     }
     TexturePrefetch prefetch(refs, [&](const TextureRef& ref) { return files.open(ref); });
     CHECK(files.decoded == 0);
+}
+
+TEST_CASE("the environment stays in its place while a renderer lives: decoders read it beside") {
+    unsetenv("GALLIVM_PERF");
+    unsetenv("LIBGL_ALWAYS_SOFTWARE");
+    render::Renderer renderer;
+    const auto variables = [] {
+        std::vector<const char*> all;
+        for (char** one = environ; *one != nullptr; ++one) all.push_back(*one);
+        return all;
+    };
+    char** const place = environ;
+    const std::vector<const char*> before = variables();
+    renderer.gl();  // makes the context
+    CHECK(environ == place);
+    CHECK(variables() == before);
+    CHECK(std::getenv("GALLIVM_PERF") == std::string("no_aos_sampling"));
 }

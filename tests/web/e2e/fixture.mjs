@@ -4,6 +4,7 @@ import { spawn } from 'node:child_process';
 import { existsSync } from 'node:fs';
 import http from 'node:http';
 import { createRequire } from 'node:module';
+import { after } from 'node:test';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 
@@ -16,9 +17,22 @@ const axePath = require.resolve('axe-core/axe.min.js');
 
 export const binary = process.env.FAROL_BINARY ?? join(root, 'build/release/farol');
 
+/** What a failed test left open would keep its file from ending. */
+const open = new Set();
+after(() => Promise.all([...open].map((close) => close())));
+/** Adds what closes something, once however often it is called. */
+const closing = (close) => {
+  let closed;
+  const once = () => (open.delete(once), closed ??= close());
+  open.add(once);
+  return once;
+};
+
 /** A daemon of its own; `stop` ends it. */
 export async function startServer({ scenes = join(root, 'scenes'), args = [], workers = 2 } = {}) {
   const child = spawn(binary, ['serve', '--port', '0', '--scenes', scenes, '--workers', String(workers), '--wait', '30', '--deadline', '60', ...args], { stdio: ['ignore', 'pipe', 'pipe'] });
+  const ended = new Promise((done) => child.on('exit', done));
+  const stop = closing(() => (child.kill('SIGTERM'), ended));
   let out = '';
   const url = await new Promise((done, failed) => {
     const timer = setTimeout(() => failed(new Error(`no server after 60 s: ${out}`)), 60000);
@@ -35,13 +49,17 @@ export async function startServer({ scenes = join(root, 'scenes'), args = [], wo
   });
   // The first pictures compile shaders: that is nobody's latency here.
   await fetch(`${url}/readyz`);
-  return { url, stop: () => new Promise((done) => (child.on('exit', done), child.kill('SIGTERM'))) };
+  return { url, stop };
 }
 
-export const launch = () => chromium.launch({
-  executablePath: process.env.FAROL_CHROMIUM ?? '/usr/bin/chromium',
-  args: ['--no-sandbox', '--disable-gpu', '--force-color-profile=srgb'],
-});
+export async function launch() {
+  const browser = await chromium.launch({
+    executablePath: process.env.FAROL_CHROMIUM ?? '/usr/bin/chromium',
+    args: ['--no-sandbox', '--disable-gpu', '--force-color-profile=srgb'],
+  });
+  closing(() => browser.close());
+  return browser;
+}
 
 /** Forwards to a server; `delayOf` says how many ms an answer is held back. */
 export function startProxy(target, delayOf) {
@@ -59,7 +77,7 @@ export function startProxy(target, delayOf) {
   });
   return new Promise((done) => server.listen(0, '127.0.0.1', () => done({
     url: `http://127.0.0.1:${server.address().port}`,
-    stop: () => new Promise((closed) => (server.closeAllConnections(), server.close(closed))),
+    stop: closing(() => new Promise((closed) => (server.closeAllConnections(), server.close(closed)))),
   })));
 }
 
@@ -245,7 +263,7 @@ export async function startLine(target, { latencyMs = 150, bytesPerMs = 187.5 } 
   await new Promise((done) => server.listen(0, '127.0.0.1', done));
   return Object.assign(line, {
     url: `http://127.0.0.1:${server.address().port}`,
-    stop: () => new Promise((closed) => (server.closeAllConnections(), server.close(closed))),
+    stop: closing(() => new Promise((closed) => (server.closeAllConnections(), server.close(closed)))),
   });
 }
 

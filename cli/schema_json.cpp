@@ -7,6 +7,7 @@
 #include "grade/rubric/metrics.h"
 #include "grade/rubric/rubric.h"
 #include "grade/rubric/severity.h"
+#include "image/animation.h"
 #include "image/format.h"
 #include "render/options.h"
 #include "scene/read/tables.h"
@@ -119,6 +120,13 @@ Json toJson(const image::FormatSpec& format) {
             {"lossy", format.isLossy}};
 }
 
+Json toJson(const image::AnimationSpec& format) {
+    return {{"name", format.name},
+            {"mime", format.mime},
+            {"endings", wordList(format.endings)},
+            {"needsModule", format.needsModule}};
+}
+
 Json toJson(const render::OptionSpec& option) {
     Json out{{"name", option.name}, {"type", nameOf(option.type)}};
     if (option.min < option.max) {
@@ -194,6 +202,7 @@ Json tablesAsJson() {
     return {{"elements", listOf(scene::elementSpecs())},
             {"shapes", listOf(generator::shapes())},
             {"formats", listOf(image::kFormats)},
+            {"animations", listOf(image::kAnimations)},
             {"options", listOf(render::optionSpecs())},
             {"settings", listOf(server::settings())},
             {"gradeFormats", listOf(grade::formats())},

@@ -6,6 +6,7 @@
 #include "cli/command.h"
 #include "cli/confine.h"
 #include "core/text.h"
+#include "image/animation.h"
 #include "render/renderer.h"
 
 namespace farol::cli {
@@ -30,8 +31,11 @@ void addVersion(CLI::App& root, Action& action) {
                     return layer.first + " " + layer.second;
                 });
                 report.set("sandbox", layers);
+                const std::vector<std::string> animations = image::writableAnimations();
+                report.set("animations", animations);
                 if (!report.json())
-                    std::cout << versionLine(*source) << "\nsandbox: " << sandbox << std::endl;
+                    std::cout << versionLine(*source) << "\nsandbox: " << sandbox
+                              << "\nanimations: " << joined(animations, ", ") << std::endl;
                 return kDone;
             });
         };

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "image/image.h"
 
@@ -78,23 +79,29 @@ struct AnimationSpec {
     std::string_view signature;
     /// Upper bound of a frame's size without its head, used to check replies of workers.
     double maxBytesPerPixel;
+    bool needsModule;  ///< needs the video module, which is not in every installation
     std::unique_ptr<AnimationWriter> (*write)(const AnimationSettings& settings);
 };
 
 /// The table of formats of animations, in the order of AnimationFormat.
 inline constexpr std::array kAnimations{
-    AnimationSpec{"apng", "image/apng", "png apng", "\x89PNG\r\n\x1a\n", 4.5, writeApng},
-    AnimationSpec{"animated-webp", "image/webp", "webp", "RIFF????WEBP", 6, writeAnimatedWebp},
+    AnimationSpec{"apng", "image/apng", "png apng", "\x89PNG\r\n\x1a\n", 4.5, false, writeApng},
+    AnimationSpec{"animated-webp", "image/webp", "webp", "RIFF????WEBP", 6, false,
+                  writeAnimatedWebp},
     // LZW codes of at most 12 bits, of which one clears the table every 4,096.
-    AnimationSpec{"gif", "image/gif", "gif", "GIF89a", 2, writeGif},
+    AnimationSpec{"gif", "image/gif", "gif", "GIF89a", 2, false, writeGif},
     // Macroblocks of raw samples, 12 bits a pixel, and packets' heads.
-    AnimationSpec{"mp4", "video/mp4", "mp4", "????ftyp", 4, writeMp4},
-    AnimationSpec{"webm", "video/webm", "webm", "\x1A\x45\xDF\xA3", 4, writeWebm},
+    AnimationSpec{"mp4", "video/mp4", "mp4", "????ftyp", 4, true, writeMp4},
+    AnimationSpec{"webm", "video/webm", "webm", "\x1A\x45\xDF\xA3", 4, true, writeWebm},
 };
 inline constexpr AnimationFormat kLastAnimation{kAnimations.size() - 1};
 
 constexpr const AnimationSpec& specOf(AnimationFormat format) {
     return kAnimations[static_cast<std::size_t>(format)];
 }
+
+/// Returns the names of the formats that this installation writes, in the table's order. Loads the
+/// video module for the rest of the process (70 ms, 24 MB) where it is installed.
+std::vector<std::string> writableAnimations();
 
 }  // namespace farol::image

@@ -67,4 +67,17 @@ std::unique_ptr<AnimationWriter> writeWebm(const AnimationSettings& settings) {
     return std::make_unique<VideoWriter>(settings, "webm", "libvpx-vp9");
 }
 
+std::vector<std::string> writableAnimations() {
+    std::vector<std::string> names;
+    for (const AnimationSpec& format : kAnimations) {
+        try {
+            if (format.needsModule) format.write({});
+            names.emplace_back(format.name);
+        } catch (const Error& error) {
+            if (error.code() != "option.unavailable") throw;
+        }
+    }
+    return names;
+}
+
 }  // namespace farol::image

@@ -34,6 +34,7 @@ struct ServiceOptions {
     std::chrono::milliseconds checkTime{5'000};
     std::string token;                      ///< that writing to the store needs; empty: none
     std::vector<std::string> allowedHosts;  ///< as SiteGuard takes them; empty: any
+    std::vector<std::string> animations;    ///< names of image::kAnimations that workers can write
     std::function<std::uint64_t()> droppedLogLines = [] { return 0; };  ///< for the metrics
 };
 

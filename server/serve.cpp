@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "core/text.h"
+#include "server/animation_probe.h"
 #include "server/descriptor_limit.h"
 #include "server/http/socket.h"
 #include "server/log_writer.h"
@@ -164,6 +165,7 @@ int serve(const ServeOptions& options) {
     signal(SIGPIPE, SIG_IGN);
     signal(SIGXFSZ, SIG_IGN);  // a write beyond a limit fails, as on a full disk
 
+    AnimationProbe animations;
     worker::PoolOptions pool;
     pool.workers = options.workers;
     if (pool.workers == 0)  // a core each: one picture's work is spread over cores in part only
@@ -207,6 +209,7 @@ int serve(const ServeOptions& options) {
     service.token = options.token;
     service.checkTime = options.checkTime;
     service.allowedHosts = allowedHosts(options, logger);
+    service.animations = animations.names();
     service.droppedLogLines = [&log] { return log.dropped(); };
     Service handler(std::move(service), backend, logger);
     http::Listener listener(listen, handler);

@@ -7,6 +7,7 @@
 #include "server/json.h"
 #include "server/messages.h"
 #include "server/request/parameters.h"
+#include "server/request/problem.h"
 #include "server/routes/answers.h"
 
 namespace farol::server {

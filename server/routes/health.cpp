@@ -45,6 +45,7 @@ http::Response getVersion(Context& context, const Call& call) {
                          {"version", projectVersion()},
                          {"renderer", context.backend.version()},
                          {"gl", facts.gl},
+                         {"animations", context.options.animations},
                          {"sandbox", sandbox}});
 }
 

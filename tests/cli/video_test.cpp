@@ -61,6 +61,16 @@ TEST_CASE("without the video module the error names the fix, and other formats a
         CHECK_FALSE(exists(output));
     }
     CHECK(draw("loop.gif") == 0);
+    REQUIRE(std::system(("'" + (folder() / "bin/farol").string() + "' version --json >'" +
+                         (folder() / "version").string() + "'")
+                            .c_str()) == 0);
+    CHECK(json::parse(readFile("version"))["animations"] == json{"apng", "animated-webp", "gif"});
+}
+
+TEST_CASE("the version lists videos where their module is installed") {
+    json formats = {"apng", "animated-webp", "gif"};
+    if (hasModule()) formats.insert(formats.end(), {"mp4", "webm"});
+    CHECK(json::parse(run("version --json").out)["animations"] == formats);
 }
 
 TEST_CASE("a video has the frames of one loop at a constant rate") {

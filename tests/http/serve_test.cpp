@@ -100,7 +100,13 @@ TEST_CASE("serve says where it listens, draws, and ends with 0 on a signal") {
         const int port = portIn(daemon.firstLine());
         CHECK(get(port, "/livez").status == 200);
         CHECK(get(port, "/readyz").status == 200);
-        CHECK(get(port, "/version").json()["name"] == "farol");
+        const nlohmann::json version = get(port, "/version").json();
+        CHECK(version["name"] == "farol");
+        nlohmann::json formats = {"apng", "animated-webp", "gif"};
+        if (std::filesystem::exists(
+                std::filesystem::path(kProgram).replace_filename("libfarol_video.so")))
+            formats.insert(formats.end(), {"mp4", "webm"});
+        CHECK(version["animations"] == formats);
         CHECK(get(port, "/v1/scenes").json()["total"].get<int>() > 0);
         CHECK(get(port, "/").body.find("<html") != std::string::npos);
         daemon.signal(number);

@@ -207,6 +207,28 @@ test('lights are moved and turned; what has no handles says why', async () => {
   await view.close();
 });
 
+test('a handle that goes away during its drag lets go: the next drag is another step', async () => {
+  const text = redBall('\n    <transform><translate x="0" y="0" z="0"/></transform>'), view = await openDraft(text);
+  await select(view, 'Ball');
+  const [x, y] = await middleOfHandle(view, 'move-X');
+  await view.page.mouse.move(x, y);
+  await view.page.mouse.down();
+  await view.page.mouse.move(x + 40, y, { steps: 4 });
+  // As by a second finger.
+  await view.page.evaluate(() => [...document.querySelectorAll('.gizmo-bar button')].find((one) => one.ariaLabel === 'Select without handles').click());
+  await view.page.waitForFunction(() => !document.querySelector('.handle'));
+  await view.page.mouse.up();
+  const first = await draftOf(view);
+  assert.notEqual(first, text);
+  await tool(view, 'Move');
+  await dragBy(view, await middleOfHandle(view, 'move-Y'), 0, -50);
+  assert.notEqual(await draftOf(view), first);
+  await view.page.getByRole('button', { name: 'Undo' }).click();
+  await settled(view);
+  assert.equal(await draftOf(view), first);
+  await view.close();
+});
+
 test('the middle of the handles is where an animated group is at that time', async () => {
   const points = [[2, 0, 0], [0, 2, 0], [-2, 0, 0], [0, -2, 0]].map(([x, y, z]) => `<point x="${x}" y="${y}" z="${z}"/>`).join('');
   const view = await openDraft(redBall(`\n    <transform><translate time="8" align="true">${points}</translate><rotate time="3" z="1"/></transform>`));

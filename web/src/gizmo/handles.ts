@@ -43,7 +43,7 @@ const maxJump = 4; // CSS pixels that the last decimal of a dragged number may b
 /** Decimals that a drag needs, of numbers that are `perNumber` world units each. */
 const finest = (pixel: number, perNumber: number): number => Math.min(6, Math.max(0, Math.ceil(-Math.log10((maxJump * pixel) / (perNumber || 1)))));
 
-/** The point of a ring's circle at an angle in radians, where its plane's axes are `u` and `v`. */
+/** Two axes of length 1 in the plane across `axis`: v is u, turned by 90 degrees about it. */
 export function ringAxes(axis: Vec3): { u: Vec3; v: Vec3 } {
   const u = unit(cross(axis, Math.abs(axis[1]) > 0.9 ? [1, 0, 0] : [0, 1, 0]));
   return { u, v: cross(axis, u) };

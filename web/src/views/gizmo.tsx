@@ -119,6 +119,26 @@ export function Gizmo({ viewer }: { viewer: Viewer }) {
   const svg = useRef<SVGSVGElement>(null), dragging = useRef<Drag | null>(null);
   const [active, setActive] = useState('');
   const { width, height } = useStageSize(viewer), camera = viewer.frame.value?.camera, tool = viewer.tool.value, now = targetsNow(viewer);
+  const finish = (): void => {
+    if (!dragging.current) return;
+    dragging.current = null;
+    setActive('');
+    viewer.endGesture();
+  };
+  // A handle that goes away while it is dragged, as by the key of another tool, does not get the end of the drag.
+  useEffect(() => {
+    if (active === '') return;
+    const stop = (event: PointerEvent): void => {
+      if (event.pointerId === dragging.current?.pointer) finish();
+    };
+    window.addEventListener('pointerup', stop);
+    window.addEventListener('pointercancel', stop);
+    return () => {
+      window.removeEventListener('pointerup', stop);
+      window.removeEventListener('pointercancel', stop);
+    };
+  }, [active]);
+  useEffect(() => finish, [viewer]);
   if (!camera || !now || now.isLocked || !['move', 'turn', 'scale'].includes(tool)) return null;
   const lens = new Lens(camera, width, height), handles = handlesOf(now.targets, tool as Tool);
   const shapes = handles.flatMap((handle) => {
@@ -152,11 +172,6 @@ export function Gizmo({ viewer }: { viewer: Viewer }) {
     finish();
     // A click is for what lies below.
     if (event.type === 'pointerup' && !held.isDrag) void pickModel(viewer, held.from.x, held.from.y);
-  };
-  const finish = (): void => {
-    dragging.current = null;
-    setActive('');
-    viewer.endGesture();
   };
   const press = (handle: Handle, event: KeyboardEvent): void => {
     if (event.ctrlKey || event.metaKey || event.altKey) return;

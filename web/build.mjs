@@ -7,6 +7,7 @@ import { createRequire } from 'node:module';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { gzipSync } from 'node:zlib';
+import { reportFiles } from './report_files.mjs';
 
 const here = dirname(fileURLToPath(import.meta.url));
 const out = process.argv[2] ?? join(here, 'page');
@@ -18,15 +19,6 @@ const documents = {
   name: 'documents',
   setup({ onResolve }) {
     onResolve({ filter: /^document:/ }, ({ path }) => ({ path: `./${path.replace(':', '.')}.js`, external: true }));
-  },
-};
-
-/** Files of the report of `farol grade` as texts, for reports that the page writes. */
-const reportFiles = {
-  name: 'report files',
-  setup({ onResolve, onLoad }) {
-    onResolve({ filter: /^report:/ }, ({ path }) => ({ path: path.slice('report:'.length), namespace: 'report' })); // names of chunks hash this
-    onLoad({ filter: /./, namespace: 'report' }, ({ path }) => ({ contents: readFileSync(join(here, '../grade/report', path), 'utf8'), loader: 'text' }));
   },
 };
 
@@ -66,7 +58,7 @@ for (const path of queue) {
   queue.push(...metafile.outputs[path].imports.filter((one) => one.kind === 'import-statement').map((one) => one.path));
 }
 const first = [...statics].map(named).concat(named(entry[1].cssBundle)).reduce((sum, path) => sum + size(path), 0);
-const isTranslation = ([, { entryPoint }]) => /^languages\//.test(entryPoint ?? '');
+const isTranslation = ([, { entryPoint }]) => /^(languages\/|report:words\/)/.test(entryPoint ?? '');
 const translations = Object.entries(metafile.outputs).filter(isTranslation).map(([path]) => size(named(path)));
 const all = outputFiles.reduce((sum, file) => sum + gzipSync(file.contents).length, 0) - translations.reduce((sum, one) => sum + one, 0);
 const kB = (bytes) => (bytes / 1000).toFixed(1);

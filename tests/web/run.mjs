@@ -6,6 +6,7 @@ import { cpSync, existsSync, mkdirSync, readdirSync, readFileSync, rmSync } from
 import { createRequire } from 'node:module';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
+import { reportFiles } from '../../web/report_files.mjs';
 
 const here = dirname(fileURLToPath(import.meta.url));
 const root = join(here, '../..'), packages = join(root, 'build/web');
@@ -58,13 +59,6 @@ if (kind === 'bundle') {
     setup({ onResolve, onLoad }) {
       onResolve({ filter: /^document:/ }, ({ path }) => ({ path: path.slice('document:'.length), namespace: 'document' }));
       onLoad({ filter: /./, namespace: 'document' }, ({ path }) => ({ contents: readFileSync(join(root, paths[path]), 'utf8'), loader: 'text' }));
-    },
-  };
-  const reportFiles = {
-    name: 'report files',
-    setup({ onResolve, onLoad }) {
-      onResolve({ filter: /^report:/ }, ({ path }) => ({ path: join(root, 'grade/report', path.slice('report:'.length)), namespace: 'report' }));
-      onLoad({ filter: /./, namespace: 'report' }, ({ path }) => ({ contents: readFileSync(path, 'utf8'), loader: 'text' }));
     },
   };
   const out = join(packages, `unit-${process.version}`);  // one for each Node.js under test

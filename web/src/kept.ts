@@ -7,7 +7,7 @@ function open(): Promise<IDBDatabase> {
     const request = indexedDB.open('farol', 1);
     request.onupgradeneeded = () => request.result.createObjectStore('kept');
     request.onsuccess = () => done(request.result);
-    request.onerror = () => failed(request.error ?? new Error('no storage'));
+    request.onerror = () => failed(request.error ?? new Error('storage.none'));
   });
   opened.catch(() => (opened = null));
   return opened;
@@ -17,7 +17,7 @@ async function run<T>(mode: IDBTransactionMode, act: (store: IDBObjectStore) => 
   const transaction = (await open()).transaction('kept', mode), request = act(transaction.objectStore('kept'));
   return new Promise((done, failed) => {
     transaction.oncomplete = () => done(request.result);
-    transaction.onerror = transaction.onabort = () => failed(transaction.error ?? new Error('no storage'));
+    transaction.onerror = transaction.onabort = () => failed(transaction.error ?? new Error('storage.none'));
   });
 }
 

@@ -8,7 +8,7 @@ declare module 'document:schema' {
   export default text;
 }
 declare module '*.css';
-// Files of grade/report as texts (web/build.mjs).
+// Files of grade/report and words of core/languages as texts (web/report_files.mjs).
 declare module 'report:*' {
   const text: string;
   export default text;

@@ -31,12 +31,17 @@ export function preferredLanguage(stored: string | null, browser: readonly strin
 const catalogue = signal<Catalogue>({});
 export const language = signal<Language>('en');
 
-async function use(chosen: Language): Promise<void> {
-  const loaded = chosen === 'en' ? {} : (await loaders[chosen]()).default;
+let latest = 0; // number of the last choice: an earlier one whose translation comes later is void
+
+/** Returns false where another language was chosen meanwhile. */
+async function use(chosen: Language): Promise<boolean> {
+  const number = ++latest, loaded = chosen === 'en' ? {} : (await loaders[chosen]()).default;
+  if (number !== latest) return false;
   batch(() => {
     catalogue.value = loaded;
     language.value = chosen;
   });
+  return true;
 }
 
 /** Of the first view: in English where the translation does not come. The document has the language from then on. */
@@ -50,8 +55,7 @@ export async function firstWords(): Promise<void> {
 /** Rejects where the server does not send the translation. */
 export async function chooseLanguage(value: string): Promise<void> {
   if (!isLanguage(value)) return;
-  await use(value);
-  remember('language', value);
+  if (await use(value)) remember('language', value);
 }
 
 const fill = (text: string, values: Record<string, string | number> = {}): string =>

@@ -20,7 +20,7 @@ import type { GradeTables } from '../../../web/src/grade/tables.ts';
 import { tarHeader, tarOf } from '../../../web/src/grade/tar.ts';
 import type { Grade, Submission } from '../../../web/src/grade/types.ts';
 import { firstCause } from '../../../web/src/views/grade/list_state.ts';
-import { ZipWriter } from '../../../web/src/grade/zip_write.ts';
+import { ZipWriter } from '../../../web/src/zip.ts';
 
 const tables = JSON.parse(readFileSync('api/schema.json', 'utf8')) as GradeTables;
 const file = (path: string, text = path) => ({ path, file: new File([text], path) as never });
@@ -125,7 +125,7 @@ test('the document of a place is found in archives, two deep', async () => {
   const tar = tarOf([file('a/scene.xml', 'é')]), gz = new Blob([spawnSync('gzip', ['-c'], { input: Buffer.from(await tar.arrayBuffer()) }).stdout]);
   assert.equal((await sourceOf(tar, 'x.tar', 'scene.xml')).text, 'é');
   assert.equal((await sourceOf(gz, 'x.tgz', 'a/scene.xml')).text, 'é');
-  await assert.rejects(sourceOf(outer, 'Ana.zip', 'gone.xml'), /no file "gone.xml"/);
+  await assert.rejects(sourceOf(outer, 'Ana.zip', 'gone.xml'), /no file “gone.xml”/);
   await assert.rejects(sourceOf(new Blob(['Rar!..']), 'x.rar', 'scene.xml'), /7z, rar/);
   await assert.rejects(sourceOf(zipOf({ 'big.xml': 'x'.repeat(2 << 20) }), 'b.zip', 'big.xml'), /larger than 1 MiB/);
   assert.equal(decoded(new Uint8Array([0xe9])), 'é');
@@ -212,7 +212,7 @@ test('a rubric is checked by the schema of the service, with lines', () => {
   assert.deepEqual(problems('{\n "points": "many",\n "criteria": [\n  { "measure": "lights", "weight": 2000 }\n ]\n}'), [
     '2 /points is "many"; expected a number from 0.01 to 10000', '4 /criteria/0/weight is "2000"; expected a number from 0 to 1000']);
   assert.match(problems('{"wieght": 1}')[0] ?? '', /^1 \/wieght is no key of a rubric; expected one of title, points/);
-  assert.deepEqual(problems('{"criteria":[{"measure":"lights"},\n{"measure":"lights"}]}'), ['2 /criteria/1/measure is there twice: "lights"']);
+  assert.deepEqual(problems('{"criteria":[{"measure":"lights"},\n{"measure":"lights"}]}'), ['2 /criteria/1/measure is duplicated: "lights"']);
   assert.deepEqual(problems('{"points": 2,\n"manual":[{"id":"a","text":"b","points":3}]}'), ['1 /points is 2; requirements and parts marked by hand have 3 together']);
   assert.match(problems('{"criteria":[{"measure":"flip","tolerance":0.6}]}')[0] ?? '', /\/criteria\/0\/tolerance is not below the limit, 0.5/);
   assert.equal(lineOf('{"a": [1,\n {"b/c": 2}]}', '/a/1/b~1c'), 2);

@@ -3,7 +3,8 @@ import { File } from 'node:buffer'; // no global before Node.js 20
 import { test } from 'node:test';
 import { History, stepGapMs, type Moment } from '../../../web/src/scene/history.ts';
 import { noMarks } from '../../../web/src/scene/marks.ts';
-import { callOf, crc32, stlOf } from '../../../web/src/scene/exports.ts';
+import { callOf, stlOf } from '../../../web/src/scene/exports.ts';
+import { crc32 } from '../../../web/src/zip.ts';
 import { renameInText, timesNamed } from '../../../web/src/scene/file_names.ts';
 import { areParts, listFiles, missingOf, noChanges, pathFor, withFile, withoutFile } from '../../../web/src/scene/scene_files.ts';
 

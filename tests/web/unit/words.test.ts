@@ -111,12 +111,13 @@ function bareTexts(file: TypeScript.SourceFile): string[] {
     else if (ts.isJsxAttribute(node) && shownAttributes.includes(node.name.getText()))
       noteValues(node.initializer && ts.isJsxExpression(node.initializer) ? node.initializer.expression : (node.initializer as TypeScript.Expression | undefined));
     else if (ts.isCallExpression(node) && ts.isIdentifier(node.expression) && ['say', 'copy', 'confirm', 'prompt'].includes(node.expression.text)) node.arguments.forEach(noteValues);
+    else if (ts.isNewExpression(node) && node.expression.getText() === 'Error') node.arguments?.forEach(noteValues); // findingsOf() shows it
   });
   return out;
 }
 
 test('no view shows a text that is not translated', () => {
-  const sample = ts.createSourceFile('sample.tsx', "const a = <p title='Two words' class='x'>{b ? 'Yes' : t('No')} Hello {`${c} s`} 12 px <code>key</code></p>; say(d || 'Done');", ts.ScriptTarget.ES2021, true, ts.ScriptKind.TSX);
-  assert.deepEqual(bareTexts(sample).map((text) => text.replace(/^.*: /, '')), ['Two words', 'Yes', 'Hello', 'Done']);
+  const sample = ts.createSourceFile('sample.tsx', "const a = <p title='Two words' class='x'>{b ? 'Yes' : t('No')} Hello {`${c} s`} 12 px <code>key</code></p>; say(d || 'Done'); throw new Error('It failed');", ts.ScriptTarget.ES2021, true, ts.ScriptKind.TSX);
+  assert.deepEqual(bareTexts(sample).map((text) => text.replace(/^.*: /, '')), ['Two words', 'Yes', 'Hello', 'Done', 'It failed']);
   assert.deepEqual(sources.flatMap(bareTexts), []);
 });

@@ -33,7 +33,7 @@ export async function causesOf(first: Opened, second: Opened): Promise<Cause[]> 
   form.append('submission', submission.blob, submission.fileName);
   const response = await request(`v1/grade?${query({ pictures: 0 })}`, { method: 'POST', body: form });
   const { findings, reason } = (await response.json()) as { findings?: (Cause & { places?: Cause[] })[]; reason?: { message: string } };
-  if (!findings || reason) throw new Error(reason?.message ?? 'no comparison');
+  if (!findings || reason) throw new Error(reason?.message ?? t('The scenes cannot be compared'));
   return findings.map(({ message, seen, line, file, places }) => {
     const place = line ? { line, file } : places?.find((one) => one.line);
     return { message, seen, ...(place?.line ? { line: place.line } : {}), ...(place?.file ? { file: place.file } : {}) };

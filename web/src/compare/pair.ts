@@ -56,8 +56,10 @@ export class Side {
     this.loop.restart();
     batch(() => {
       this.opened.value = opened;
+      this.problem.value = '';
       this.image.value = opened?.image ? { bitmap: opened.image.bitmap, moving: false, count: ++this.count } : null;
     });
+    this.shown?.close();
     this.shown = null;
   }
 

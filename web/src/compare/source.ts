@@ -3,7 +3,7 @@ import { getFiles, getScene, getSource, query, request, scenePath, validate, typ
 import { kept } from '../kept.ts';
 import { bundleOf, type NamedFile } from '../scene/bundle.ts';
 import { loadDraft } from '../scene/drafts.ts';
-import { zipOf } from '../scene/exports.ts';
+import { zipOf } from '../zip.ts';
 import { bodyOf, fetchPicture, type Origin } from '../scene/frame.ts';
 import { isImage, listFiles, noChanges, type FileChanges } from '../scene/scene_files.ts';
 import { newScene } from '../scene/template.ts';
@@ -25,10 +25,12 @@ export interface Opened {
 
 const files = new Map<SourceName, readonly NamedFile[]>();
 
-/** Keeps files for as long as the page is open. */
-export function fileSource(given: readonly NamedFile[]): SourceName {
-  const name = `file:${given[0]?.path.split('/')[0] ?? ''}`;
-  files.set(name, given);
+/** Keeps files for as long as the page is open. Each choice has a name that no other has: two students hand in scene.xml. */
+export function fileSource(chosen: readonly NamedFile[]): SourceName {
+  const own = `file:${chosen[0]?.path.split('/')[0] ?? ''}`;
+  let name = own;
+  for (let number = 2; files.has(name); ++number) name = `${own} (${number})`;
+  files.set(name, chosen);
   return name;
 }
 
@@ -72,15 +74,13 @@ async function openDraft(name: SourceName): Promise<Opened> {
 }
 
 async function openFiles(name: SourceName): Promise<Opened | null> {
-  const given = files.get(name), only = given?.length === 1 ? given[0] : undefined;
-  if (!given) return null; // of an earlier visit
+  const chosen = files.get(name), only = chosen?.length === 1 ? chosen[0] : undefined;
+  if (!chosen) return null; // of an earlier visit
   if (only && isImage(only.path)) {
-    const bitmap = await createImageBitmap(only.file), refuse = (): never => {
-      throw new Error('an image is no scene');
-    };
-    return { name, title: only.path, facts: null, image: { bitmap, blob: only.file }, page: '', ask: refuse, part: async () => ({ blob: only.file, fileName: only.path }) };
+    const bitmap = await createImageBitmap(only.file);
+    return { name, title: only.path, facts: null, image: { bitmap, blob: only.file }, page: '', ask: async () => undefined, part: async () => ({ blob: only.file, fileName: only.path }) };
   }
-  const bundle = await bundleOf(given);
+  const bundle = await bundleOf(chosen);
   if ('message' in bundle) throw new Error(bundle.message);
   const facts = { ...(await validate(bundle.body(), null)), id: '' }, title = facts.title || bundle.name, { loose } = bundle;
   if (loose) {

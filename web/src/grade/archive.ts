@@ -1,4 +1,6 @@
 // Archives that are read where they lie: a zip's directory first, its members as they are needed.
+import { t } from '../words.ts';
+
 const signature = { local: 0x04034b50, entry: 0x02014b50, end: 0x06054b50 };
 const endBytes = 22, entryBytes = 46, localBytes = 30;
 const maxDirectoryBytes = 64 * 1024 * 1024;
@@ -55,7 +57,7 @@ export async function zipEntries(zip: Blob): Promise<ZipEntry[] | null> {
 /** The bytes of an entry as they are packed. */
 async function packedBytes(zip: Blob, { offset, packed }: ZipEntry): Promise<Blob> {
   const local = await view(zip.slice(offset, offset + localBytes));
-  if (local.byteLength < localBytes || local.getUint32(0, true) !== signature.local) throw new Error('The archive is damaged');
+  if (local.byteLength < localBytes || local.getUint32(0, true) !== signature.local) throw new Error(t('The archive is damaged'));
   const data = offset + localBytes + local.getUint16(26, true) + local.getUint16(28, true);
   return zip.slice(data, data + packed);
 }
@@ -89,6 +91,8 @@ export async function repacked(zip: Blob, entries: readonly (ZipEntry & { name: 
   return new Blob([...parts, ...directory, end.buffer], { type: 'application/zip' });
 }
 
+const tooLarge = (max: number): Error => new Error(t('A file is larger than {size} MiB', { size: Math.round(max / 1048576) }));
+
 /** Unpacks a stream; throws Error where more than `max` bytes come out, before they are kept. */
 async function unpacked(packed: Blob, format: CompressionFormat, max: number): Promise<Uint8Array> {
   const reader = packed.stream().pipeThrough(new DecompressionStream(format) as ReadableWritablePair<Uint8Array, Uint8Array>).getReader();
@@ -100,7 +104,7 @@ async function unpacked(packed: Blob, format: CompressionFormat, max: number): P
     size += value.length;
     if (size > max) {
       await reader.cancel();
-      throw new Error(`A file is larger than ${Math.round(max / 1048576)} MiB`);
+      throw tooLarge(max);
     }
     chunks.push(value);
   }
@@ -117,14 +121,14 @@ export interface Member {
 }
 
 async function readSlice(blob: Blob, max: number): Promise<Uint8Array> {
-  if (blob.size > max) throw new Error(`A file is larger than ${Math.round(max / 1048576)} MiB`);
+  if (blob.size > max) throw tooLarge(max);
   return new Uint8Array(await blob.arrayBuffer());
 }
 
 async function readEntry(zip: Blob, entry: ZipEntry, max: number): Promise<Uint8Array> {
   const packed = await packedBytes(zip, entry);
   if (entry.method === method.stored) return readSlice(packed, max);
-  if (entry.method !== method.deflated) throw new Error('A file is packed by a method that is not read here');
+  if (entry.method !== method.deflated) throw new Error(t('A file is packed by a method that this page does not read'));
   return unpacked(packed, 'deflate-raw', max);
 }
 

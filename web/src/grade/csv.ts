@@ -1,4 +1,6 @@
 // The tables of `farol grade`: grade/report/csv.h.
+import { t } from '../words.ts';
+
 const formula = /^[=+\-@\t\n\uFF1D\uFF0B\uFF0D\uFF20]/;
 const maxRows = 100_000;
 
@@ -27,7 +29,7 @@ export function readCsv(text: string, file: string, needed: readonly string[]): 
       if (columns.length === 0) columns = fields.map((field) => field.trim().toLowerCase());
       else rows.push({ fields, line: begin });
     }
-    if (rows.length > maxRows) throw new Error(`${file}, line ${line}: the table has more than ${maxRows} rows`);
+    if (rows.length > maxRows) throw new Error(t('{file}, line {line}: the table has more than {most} rows', { file, line, most: maxRows }));
     fields = [''];
     begin = line;
   };
@@ -45,7 +47,7 @@ export function readCsv(text: string, file: string, needed: readonly string[]): 
   end();
   const lacks = needed.filter((column) => !columns.includes(column));
   if (lacks.length > 0)
-    throw new Error(`${file}, line 1: there is no column "${lacks.join('", "')}"; expected the columns ${needed.join(', ')}`);
+    throw new Error(t('{file}, line 1: there is no column "{missing}"; expected the columns {needed}', { file, missing: lacks.join('", "'), needed: needed.join(', ') }));
   return {
     columns, count: rows.length,
     lineOf: (row) => rows[row]?.line ?? 0,

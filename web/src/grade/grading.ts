@@ -126,14 +126,20 @@ export async function addSubmissions(all: readonly Handed[]): Promise<void> {
     .sort((a, b) => byName(a.id, b.id));
 }
 
+/** The reference of a task, and the images of it, are kept no longer. */
+async function forgetFiles(task: string): Promise<void> {
+  withExpected.delete(task);
+  await Promise.all([store.referenceFiles.delete(task), store.expectedImages.delete(task)]);
+}
+
 /** Replaces the tasks, or adds to them; a task's rubric stays where its name is the same. */
 export async function setTasks(all: readonly Task[], isAdded: boolean): Promise<void> {
   const names = new Set(all.map(({ name }) => name)), before = tasks.value;
+  if (!isAdded) for (const { name } of before) if (!names.has(name)) void forgetFiles(name);
   const fresh = all.map((task) => ({ ...task, rubric: task.rubric ?? before.find(({ name }) => name === task.name)?.rubric ?? (all.length === 1 && before.length === 1 && !isAdded ? (before[0]?.rubric ?? null) : null) }));
   for (const { name, reference } of fresh) {
+    await forgetFiles(name);
     if (reference) await store.referenceFiles.set(name, reference.file);
-    await store.expectedImages.delete(name);
-    withExpected.delete(name);
   }
   // Among several tasks the name of each says which scene of an archive is meant.
   const isOther = isAdded && before.length === 1;
@@ -148,6 +154,7 @@ export function setRubric(at: number, rubric: Task['rubric']): void {
 export function removeTask(name: string): void {
   dropResults((key) => tasks.value.length === 2 || key.startsWith(`${name}\n`));
   tasks.value = tasks.value.filter((task) => task.name !== name);
+  void forgetFiles(name);
 }
 
 /** The marks of a person for a submission: a mark or a comment, or neither to take it back. */
@@ -193,9 +200,9 @@ type Answer = Omit<Grade, 'views'> & { views: (View & { picture?: string; heat?:
 /** Takes the images out of an answer, so that memory holds figures alone. */
 function splitImages(answer: Answer): { grade: Grade; images: ViewImages[]; expected: (Blob | null)[] } {
   const images: ViewImages[] = [], expected: (Blob | null)[] = [];
-  const views = answer.views.map(({ picture, heat, expected: wanted, ...view }) => {
+  const views = answer.views.map(({ picture, heat, expected: reference, ...view }) => {
     images.push({ picture: picture ? blobOf(picture) : null, heat: heat ? blobOf(heat) : null });
-    expected.push(wanted ? blobOf(wanted) : null);
+    expected.push(reference ? blobOf(reference) : null);
     return view;
   });
   return { grade: { ...answer, views }, images, expected };
@@ -210,13 +217,15 @@ let abort: AbortController | null = null;
 
 async function ask(submission: Submission, task: Task, signalOf: AbortSignal): Promise<void> {
   const key = resultKey(task.name, submission.id), rubric = task.rubric?.text ?? '';
+  // Before anything is waited for: an edit of the rubric replaces the task meanwhile.
+  const isCompared = comparedPoints(rubrics.value[tasks.value.indexOf(task)] as Rubric) > 0;
+  const others = tasks.value.filter((one) => one !== task).map(({ name }) => name.replaceAll(',', ' ')).join();
   const file = await store.submissionFiles.get(submission.id);
   if (!file) return setResult(key, { rubric, failure: { code: 'grade.lost', message: t('The browser no longer has this file. Add it again.') } });
-  const form = new FormData(), isCompared = comparedPoints(rubrics.value[tasks.value.indexOf(task)] as Rubric) > 0;
+  const form = new FormData();
   form.append('submission', file, submission.fileName);
   if (task.reference && isCompared) form.append('reference', task.reference.file, task.reference.fileName);
   if (rubric) form.append('rubric', new Blob([rubric], { type: 'application/json' }), 'rubric.json');
-  const others = tasks.value.filter((one) => one !== task).map(({ name }) => name.replaceAll(',', ' ')).join();
   const url = `v1/grade?${query({
     pictures: withExpected.get(task.name) === rubric ? 1 : 2, missing: missing.value, ...(others ? { task: task.name, others } : {}),
   })}`;

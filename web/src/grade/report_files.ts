@@ -4,14 +4,14 @@ import pageHtml from 'report:page.html';
 import pageJs from 'report:page.js';
 import viewCss from 'report:view.css';
 import viewJs from 'report:view.js';
-import { language } from '../words.ts';
+import { language, type Language } from '../words.ts';
 import { rubrics, tasks, taskNames } from './grading.ts';
 import type { StudentMark } from './marks.ts';
 import { membersOf } from './names.ts';
 import { criteriaCsv, gradesCsv, junitXml, overridesCsv, type ClassReport } from './report_tables.ts';
 import { expectedImages, viewImages } from './store.ts';
 import { resultKey, type Override, type ViewImages } from './types.ts';
-import { ZipWriter } from './zip_write.ts';
+import { ZipWriter } from '../zip.ts';
 
 /** A submission as report.json has it. */
 function jsonOf({ submission, points, most, passed, graded, overridden, comments, tasks: all }: StudentMark) {
@@ -25,6 +25,13 @@ function jsonOf({ submission, points, most, passed, graded, overridden, comments
 export const reportJson = ({ title, tasks: names, marks }: ClassReport): string =>
   `{"title":${JSON.stringify(title)},\n"rubric":${JSON.stringify(rubrics.value[0])},\n"tasks":${JSON.stringify(names)},\n"submissions":[\n` +
   `${marks.map((mark) => JSON.stringify(jsonOf(mark))).join(',\n')}\n]}\n`;
+
+const loaders: Record<Exclude<Language, 'en'>, () => Promise<{ default: string }>> = {
+  pt: () => import('report:words/pt'), es: () => import('report:words/es'), cs: () => import('report:words/cs'),
+};
+
+/** The words of view.js in the reader's language; none for English, which it has. */
+const reportWords = async (chosen: Language): Promise<unknown> => (chosen === 'en' ? {} : JSON.parse((await loaders[chosen]()).default));
 
 /** For text in a script element: nothing in it can end the element. */
 const forScript = (value: unknown): string => JSON.stringify(value).replaceAll('<', '\\u003c');
@@ -52,7 +59,8 @@ function around(text: string, mark: string): [string, string] {
 export async function reportHtml(report: ClassReport): Promise<Blob> {
   const [head, afterStyle] = around(pageHtml, '/*STYLE*/'), [beforeData, afterData] = around(afterStyle, '<!--DATA-->'), [beforeScript, end] = around(afterData, '/*SCRIPT*/');
   const parts: BlobPart[] = [head, pageCss, viewCss, beforeData];
-  parts.push(`<script type="application/json" id="class">${forScript({ title: report.title, tasks: report.tasks, language: language.value, words: {} })}</script>\n`);
+  const chosen = language.value, about = { title: report.title, tasks: report.tasks, language: chosen, words: await reportWords(chosen) };
+  parts.push(`<script type="application/json" id="class">${forScript(about)}</script>\n`);
   for (const [at, { name }] of tasks.value.entries()) parts.push(new Blob([await imageScript(`r${at}`, (await expectedImages.get(name)) ?? [])]));
   for (const [i, mark] of report.marks.entries()) {
     parts.push(new Blob([`<script type="application/json" class="submission">${forScript(jsonOf(mark))}</script>\n`]));

@@ -77,14 +77,14 @@ export interface RubricCheck {
 function relations(rubric: Rubric, tables: GradeTables): SchemaProblem[] {
   const out: SchemaProblem[] = [], seen = new Set<string>(tables.gradeMeasures.map(({ name }) => name)), measures = new Set<string>();
   rubric.criteria.forEach(({ measure, tolerance, limit }, i) => {
-    if (measures.has(measure)) out.push({ pointer: `/criteria/${i}/measure`, message: t('is there twice: "{name}"', { name: measure }) });
+    if (measures.has(measure)) out.push({ pointer: `/criteria/${i}/measure`, message: t('is duplicated: "{name}"', { name: measure }) });
     measures.add(measure);
     if (tolerance !== undefined && limit !== undefined && tolerance >= limit)
       out.push({ pointer: `/criteria/${i}/tolerance`, message: t('is not below the limit, {limit}', { limit }) });
   });
   for (const key of ['requirements', 'manual'] as const)
     rubric[key].forEach(({ id }, i) => {
-      if (seen.has(id)) out.push({ pointer: `/${key}/${i}/id`, message: t('is there twice: "{name}"', { name: id }) });
+      if (seen.has(id)) out.push({ pointer: `/${key}/${i}/id`, message: t('is duplicated: "{name}"', { name: id }) });
       seen.add(id);
     });
   if (rubric.criteria.reduce((sum, one) => sum + one.weight, 0) <= 0) out.push({ pointer: '/criteria', message: t('has no weight above 0') });
@@ -93,15 +93,20 @@ function relations(rubric: Rubric, tables: GradeTables): SchemaProblem[] {
   return out;
 }
 
+/** The line of a fault of JSON.parse: Firefox writes the line, Chromium the line or the index; without either the last line. */
+export function lineOfFault(text: string, message: string): number {
+  const line = /\bline (\d+)/.exec(message)?.[1], index = /\bposition (\d+)/.exec(message)?.[1];
+  return line ? Number(line) : text.slice(0, index ? Number(index) : text.length).split('\n').length;
+}
+
 /** Reads a rubric's text, and says what is wrong and in which line. */
 export function checkRubric(text: string, tables: GradeTables): RubricCheck {
   let document: unknown;
   try {
     document = JSON.parse(text);
   } catch (fault) {
-    const message = (fault as Error).message, position = Number(/position (\d+)/.exec(message)?.[1] ?? Number.NaN);
-    const line = Number.isFinite(position) ? text.slice(0, position).split('\n').length : text.split('\n').length;
-    return { document: null, problems: [{ pointer: '', line, message: t('is no JSON: {reason}', { reason: message }) }] };
+    const message = (fault as Error).message;
+    return { document: null, problems: [{ pointer: '', line: lineOfFault(text, message), message: t('is no JSON: {reason}', { reason: message }) }] };
   }
   let problems = checkBySchema(document, tables.rubric);
   if (problems.length === 0) problems = relations(resolved(document as RubricDocument, tables), tables);

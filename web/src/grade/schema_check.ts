@@ -69,11 +69,11 @@ function check(value: unknown, schema: Schema, pointer: string, out: SchemaProbl
   } else if (Array.isArray(value)) {
     const { minItems = 0, maxItems = Infinity, items } = schema;
     if (value.length < minItems || value.length > maxItems) problem(t('has {count} entries; expected {least} to {most}', { count: value.length, least: minItems, most: maxItems }));
-    if (schema.uniqueItems && new Set(value.map((one) => JSON.stringify(one))).size < value.length) problem(t('has an entry twice'));
+    if (schema.uniqueItems && new Set(value.map((one) => JSON.stringify(one))).size < value.length) problem(t('has a duplicated entry'));
     if (items) value.slice(0, maxItems).forEach((one, i) => check(one, items, `${pointer}/${i}`, out));
   } else if (type === 'object') {
     const known = schema.properties ?? {}, { additionalProperties: others } = schema;
-    for (const key of schema.required ?? []) if (!Object.hasOwn(value as object, key)) problem(t('lacks "{key}"', { key }));
+    for (const key of schema.required ?? []) if (!Object.hasOwn(value as object, key)) problem(t('needs "{key}"', { key }));
     for (const [key, inner] of Object.entries(value as object)) {
       const rule = Object.hasOwn(known, key) ? known[key] : others, at = `${pointer}/${escaped(key)}`;
       if (rule === false) problem(t('is no key of a rubric; expected one of {words}', { words: Object.keys(known).filter((one) => one !== '$schema').join(', ') }), at);

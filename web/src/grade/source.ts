@@ -1,4 +1,5 @@
 // The text of a document in a submission, for reading beside what is wrong with it.
+import { t } from '../words.ts';
 import { isArchiveName, membersOf, type Member } from './archive.ts';
 
 const maxDocumentBytes = 1024 * 1024; // as the service's bound of a document
@@ -34,12 +35,12 @@ export interface SourceText {
 export async function sourceOf(submission: Blob, fileName: string, file: string): Promise<SourceText> {
   const isPacked = isArchiveName(fileName);
   if (!isPacked) {
-    if (submission.size > maxDocumentBytes) throw new Error('The document is larger than 1 MiB');
+    if (submission.size > maxDocumentBytes) throw new Error(t('The document is larger than 1 MiB'));
     return { path: fileName, text: decoded(new Uint8Array(await submission.arrayBuffer())) };
   }
   const members = await membersOf(submission);
-  if (!members) throw new Error('This archive (7z, rar) is opened by the service alone');
+  if (!members) throw new Error(t('This page does not open such an archive (7z, rar): unpack it'));
   const at = memberNamed(members, file), member = members[at];
-  if (!member) throw new Error(`The submission has no file "${file}"`);
+  if (!member) throw new Error(t('The submission has no file “{file}”', { file }));
   return { path: member.path, text: decoded(await member.read(maxDocumentBytes)) };
 }

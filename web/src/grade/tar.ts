@@ -1,4 +1,6 @@
 // A tar file (ustar) of files of this browser: how a scene and its files travel as one part.
+import { t } from '../words.ts';
+
 const block = 512;
 
 const bytesOf = (text: string): Uint8Array => new TextEncoder().encode(text);
@@ -14,7 +16,7 @@ function splitPath(path: string): [string, string] | null {
 
 export function tarHeader(path: string, size: number): Uint8Array {
   const parts = splitPath(path);
-  if (!parts) throw new Error(`The path “${path.slice(0, 60)}…” is too long`);
+  if (!parts) throw new Error(t('The path “{path}…” is too long', { path: path.slice(0, 60) }));
   const header = new Uint8Array(block);
   const put = (at: number, text: string): void => header.set(bytesOf(text), at);
   const octal = (at: number, digits: number, value: number): void => put(at, value.toString(8).padStart(digits, '0'));

@@ -6,7 +6,7 @@ export interface Depth {
   most: number;
 }
 
-/** Of a pixel, 0..255, in a layer of depths with that near plane; null where it shows nothing. */
+/** Of a pixel, 0..255, in a layer of depths with that near plane; 0 where it shows nothing. */
 export type DepthAt = (near: number) => Promise<number>;
 
 /**

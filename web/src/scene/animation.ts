@@ -1,7 +1,7 @@
 // A lap of a scene's animation as one file: its frames are asked for one by one and put together here.
 import { patient } from '../api.ts';
 import { t } from '../words.ts';
-import { crc32 } from './exports.ts';
+import { crc32 } from '../zip.ts';
 import { fetchPicture } from './frame.ts';
 import type { Viewer } from './viewer.ts';
 

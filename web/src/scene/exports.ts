@@ -5,47 +5,7 @@ import type { Viewer } from './viewer.ts';
 import { spellings } from './language.ts';
 import { attributeOf, parseXml, walkXml } from './xml.ts';
 import { t } from '../words.ts';
-
-const table = Array.from({ length: 256 }, (_, n) => {
-  let c = n;
-  for (let k = 0; k < 8; ++k) c = c & 1 ? 0xedb88320 ^ (c >>> 1) : c >>> 1;
-  return c >>> 0;
-});
-
-export function crc32(bytes: Uint8Array): number {
-  let c = 0xffffffff;
-  for (const byte of bytes) c = (table[(c ^ byte) & 255] as number) ^ (c >>> 8);
-  return (c ^ 0xffffffff) >>> 0;
-}
-
-/** A zip of files as they are: images and meshes hardly get smaller. */
-export async function zipOf(files: readonly { path: string; file: Blob }[]): Promise<Blob> {
-  const parts: BlobPart[] = [], directory: BlobPart[] = [];
-  let size = 0, directorySize = 0;
-  for (const { path, file } of files) {
-    const bytes = new Uint8Array(await file.arrayBuffer()), name = new TextEncoder().encode(path), crc = crc32(bytes);
-    // Of a local header and of a directory's record the fields from the version to the extra field's length are alike.
-    const fields = new DataView(new ArrayBuffer(26));
-    for (const [at, value] of [[0, 20], [2, 0x800], [22, name.length]] as const) fields.setUint16(at, value, true);
-    fields.setUint16(8, 0x21, true); // a date there is
-    for (const [at, value] of [[10, crc], [14, bytes.length], [18, bytes.length]] as const) fields.setUint32(at, value, true);
-    const record = new DataView(new ArrayBuffer(46));
-    record.setUint32(0, 0x02014b50, true);
-    record.setUint16(4, 20, true);
-    new Uint8Array(record.buffer).set(new Uint8Array(fields.buffer), 6);
-    record.setUint32(42, size, true);
-    parts.push(new Uint8Array([0x50, 0x4b, 3, 4]), fields.buffer, name, bytes);
-    directory.push(record.buffer, name);
-    size += 30 + name.length + bytes.length;
-    directorySize += 46 + name.length;
-  }
-  const end = new DataView(new ArrayBuffer(22));
-  end.setUint32(0, 0x06054b50, true);
-  for (const at of [8, 10]) end.setUint16(at, files.length, true);
-  end.setUint32(12, directorySize, true);
-  end.setUint32(16, size, true);
-  return new Blob([...parts, ...directory, end.buffer], { type: 'application/zip' });
-}
+import { zipOf } from '../zip.ts';
 
 /** A file of the scene as it is now; null: it has none of that path. */
 export async function fileOf(viewer: Viewer, path: string): Promise<Blob | null> {

@@ -111,7 +111,7 @@ export class History {
   }
 
   read({ texts, past, future }: WrittenHistory): void {
-    const back = (moments: WrittenHistory['past']): Moment[] => 
+    const back = (moments: WrittenHistory['past']): Moment[] =>
       moments.map((one) => ({ ...one, marks: one.marks ?? noMarks, text: texts[one.text] ?? null }));
     this.past = back(past);
     this.future = back(future);

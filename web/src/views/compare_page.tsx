@@ -90,7 +90,7 @@ function Findings({ pair }: { pair: Pair }) {
     setProblem('');
     try {
       const [a, b] = images.map((image) => image?.bitmap) as [ImageBitmap, ImageBitmap];
-      setLines(sentences(await measure(await pngOf(a), await pngOf(b))));
+      setLines(sentences(await measure(...(await Promise.all([pngOf(a), pngOf(b)]))))); // both are drawn now: a movement closes them
       setCauses(areScenes ? await causesOf(first, second) : null);
     } catch (fault) {
       setProblem(textOf(fault));
@@ -183,7 +183,7 @@ export function ComparePage({ first, second, view }: { first: string; second: st
                 <output>{pair.time.value.toFixed(1)} s</output>
               </label>
             )}
-            <button type="button" class="button small" disabled={!areLinkable} onClick={() => void copy(location.href.replace(/#.*$/, '') + address, t('Link'))}>{t('Copy a link')}</button>
+            <button type="button" class="button small" disabled={!areLinkable} onClick={() => void copy(location.href.replace(/#.*$/, '') + address, t('Link copied.'))}>{t('Copy a link')}</button>
           </div>
           {!areLinkable && <p class="note">{t('Edits and files are in this browser only: store them as a scene to link to this comparison.')}</p>}
           {hasImage && <p class="note">{t('An image keeps its view: the scene is drawn in its size by its own camera, until you move it.')}</p>}

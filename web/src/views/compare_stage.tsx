@@ -14,7 +14,7 @@ function Picture({ side, label, shown, clip }: { side: Side; label: string; show
   const image = side.image.value, opened = side.opened.value;
   useEffect(() => {
     const surface = canvas.current;
-    if (!surface || !image) return;
+    if (!surface || !image || image.bitmap.width === 0) return; // closed: a newer one is on its way
     surface.width = image.bitmap.width;
     surface.height = image.bitmap.height;
     surface.getContext('2d', { alpha: false })?.drawImage(image.bitmap, 0, 0);
@@ -37,7 +37,7 @@ function Difference({ pair }: { pair: Pair }) {
   const first = pair.first.image.value, second = pair.second.image.value;
   useEffect(() => {
     const surface = canvas.current;
-    if (!surface || !first || !second) return;
+    if (!surface || !first?.bitmap.width || !second?.bitmap.width) return; // closed: newer ones are on their way
     const { width, height } = first.bitmap;
     const pixelsOf = (bitmap: ImageBitmap): ImageData => {
       const context = new OffscreenCanvas(width, height).getContext('2d', { alpha: false, willReadFrequently: true }) as OffscreenCanvasRenderingContext2D;

@@ -5,7 +5,7 @@ import { marks, restore, restoring, rubrics, submissions, tasks } from '../grade
 import { t } from '../words.ts';
 import { takeBaseline } from './grade/baseline.ts';
 import { Detail } from './grade/detail.tsx';
-import { chosen, step } from './grade/list_state.ts';
+import { chosen, shown, step } from './grade/list_state.ts';
 import { RubricPanel } from './grade/rubric_panel.tsx';
 import { RunBar } from './grade/run_bar.tsx';
 import { Forget, Setup } from './grade/setup.tsx';
@@ -28,7 +28,7 @@ function onKey(event: KeyboardEvent): void {
     return;
   }
   const by = { ArrowDown: 1, j: 1, ArrowUp: -1, k: -1 }[event.key];
-  if (by === undefined) return;
+  if (by === undefined || shown.value.length === 0) return;
   event.preventDefault();
   step(by);
 }

@@ -29,9 +29,9 @@ function useKeys(viewer: Viewer, isWanted: boolean): void {
   useEffect(() => {
     if (!ready || text === null) return;
     let isLatest = true;
-    void import('../scene/motion.ts').then(({ keysOf, moversOf }) => {
+    import('../scene/motion.ts').then(({ keysOf, moversOf }) => {
       if (isLatest) viewer.keys.value = keysOf(moversOf(text), clock.from.value, clock.lap.value);
-    });
+    }).catch((fault: unknown) => viewer.report(fault));
     return () => void (isLatest = false);
   }, [viewer, ready, text, clock.from.value, clock.lap.value]);
 }

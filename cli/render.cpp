@@ -21,7 +21,7 @@ namespace farol::cli {
 namespace {
 
 /// Of the process that draws, where it may have as much: it holds most first images.
-constexpr int kHeapBytes = 64 << 20;
+constexpr int kHeapBytes = 160 << 20;
 
 struct Flags {
     std::string scene, output, assets, sheet;

@@ -236,13 +236,18 @@ export const middleOf = (view) => view.page.evaluate(() => {
 
 /**
  * Forwards to a server over a slow line: half of `latencyMs` on each way, and all answers together at `bytesPerMs`.
- * Both can be changed while it runs.
+ * Both can be changed while it runs. `most` counts the small frames that were under way at once.
  */
 export async function startLine(target, { latencyMs = 150, bytesPerMs = 187.5 } = {}) {
-  const line = { latencyMs, bytesPerMs };
+  const line = { latencyMs, bytesPerMs, most: 0 };
   let free = 0; // when the line has sent what was given to it
+  let small = 0; // requests for small frames that are not answered
   const later = (ms) => new Promise((done) => setTimeout(done, ms));
   const server = http.createServer(async (request, response) => {
+    if (request.url.includes('scale=')) {
+      line.most = Math.max(line.most, ++small);
+      response.on('close', () => --small);
+    }
     await later(line.latencyMs / 2);
     const ahead = http.request(target + request.url, { method: request.method, headers: request.headers }, async (answer) => {
       await later(line.latencyMs / 2);

@@ -169,15 +169,24 @@ def free_port():
         return one.getsockname()[1]
 
 
+LEFT_OUT, COPIED = (".git", "build", "shared"), ("scenes", "api")
+
+
 def prepare(folder):
     """The project as a reader has it: what commands may change is a copy."""
     for entry in ROOT.iterdir():
-        if entry.name in (".git", "build", "shared"):
+        if entry.name in LEFT_OUT:
             continue
-        if entry.name in ("scenes", "api"):
+        if entry.name in COPIED:
             shutil.copytree(entry, folder / entry.name, ignore=shutil.ignore_patterns("node_modules"))
         else:
             (folder / entry.name).symlink_to(entry)
+
+
+def linked_files():
+    """The files of the folders that prepare() links: a command that writes there writes into the project."""
+    return {path for entry in ROOT.iterdir() if entry.is_dir() and entry.name not in LEFT_OUT + COPIED
+            for path in entry.rglob("*") if path.is_file() and "__pycache__" not in path.parts}
 
 
 def script_of(page, folder, out):
@@ -295,7 +304,11 @@ def check(page, update=False):
         folder.mkdir()
         out.mkdir()
         prepare(folder)
-        return run(page, folder, out) or stale_images(page, folder, update)
+        before = linked_files()
+        wrong = run(page, folder, out)
+        written = sorted(linked_files() - before)
+        wrong += [f"{page}: a command wrote {path.relative_to(ROOT)} into the project" for path in written]
+        return wrong or stale_images(page, folder, update)
 
 
 def main():

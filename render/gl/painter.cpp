@@ -233,7 +233,11 @@ void Painter::State::drawShadowMaps(const FramePlan& plan) {
         shadows.begin(i);
         int calls = 0;  // not those of the image
         const Pass& pass = frame.passes[0];
+        // What casts from before a map's depths, casts. A perspective has light at its nearest.
+        const bool isParallel = pass.clip[2][3] == 0.0;
+        if (isParallel) api.Enable(GL_DEPTH_CLAMP);
         for (const PassItem& item : pass.items) drawModels(frame, pass, item, calls);
+        if (isParallel) api.Disable(GL_DEPTH_CLAMP);
         shadows.keep(plan, i);
         ++shadowMapsDrawn;
     }

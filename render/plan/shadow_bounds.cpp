@@ -7,14 +7,16 @@
 namespace farol::render {
 namespace {
 
-/// Models larger than this share of the scene's diagonal are looked at closely; at most so many.
+/// Models larger than this share of the scene's diagonal, or of the sum of all, are looked at
+/// closely; at most so many.
 constexpr double kLarge = 0.25;
 constexpr int kMaxLarge = 8;
 constexpr std::size_t kMaxConvexTriangles = 64;
 
 struct Plane {
     glm::dvec3 normal;
-    double offset;  ///< before it: dot(normal, p) + offset > 0
+    double offset;       ///< before it: dot(normal, p) + offset > 0
+    double slack = 0.0;  ///< rounding of its places along the normal, world units
     double distance(const glm::dvec3& point) const { return glm::dot(normal, point) + offset; }
 };
 
@@ -22,14 +24,35 @@ bool isSeenThrough(const scene::Model& model) {
     return model.opacity < 1.0F || (model.material && model.material->opacity < 1.0F);
 }
 
-/// The planes of a small convex mesh's faces, world space; none of any other mesh. `slack`: world
-/// units.
-std::vector<Plane> facesOf(const Instance& instance, double slack) {
+double diagonalOf(const CastingBox& box) { return glm::length(box.corners[7] - box.corners[0]); }
+
+/// Rounding along a normal of what a mesh's floats, up to `most`, times the columns of `linear`,
+/// are in the world at a place. A ground's is that of doubles alone, however wide it is.
+double roundingOf(const glm::dvec3& normal, const glm::dmat3& linear, const glm::dvec3& most,
+                  const glm::dvec3& place) {
+    double rounding = 1e-15 * glm::length(place);
+    for (int axis = 0; axis < 3; ++axis)
+        rounding += most[axis] * (1e-7 * std::abs(glm::dot(normal, linear[axis])) +
+                                  1e-15 * glm::length(linear[axis]));
+    return rounding;
+}
+
+double roundingOf(const glm::dvec3& normal, const CastingBox& box) {
+    const auto& c = box.corners;
+    return roundingOf(normal, glm::dmat3(c[1] - c[0], c[2] - c[0], c[4] - c[0]), glm::dvec3(1.0),
+                      c[0]);
+}
+
+/// The planes of a small convex mesh's faces, world space; none of any other mesh.
+std::vector<Plane> facesOf(const Instance& instance) {
     const generator::Mesh& mesh = instance.mesh->mesh;
     if (mesh.triangles() > kMaxConvexTriangles) return {};
     std::vector<glm::dvec3> places;
     for (const glm::vec3& position : mesh.positions())
         places.emplace_back(instance.worldFromObject * glm::dvec4(position, 1.0));
+    glm::dvec3 most(0.0);
+    for (const glm::vec3& position : mesh.positions())
+        most = glm::max(most, glm::abs(glm::dvec3(position)));
     const bool isMirrored = glm::determinant(glm::dmat3(instance.worldFromObject)) < 0.0;
     std::vector<Plane> planes;
     for (std::size_t i = 0; i + 2 < mesh.indices().size(); i += 3) {
@@ -39,7 +62,9 @@ std::vector<Plane> facesOf(const Instance& instance, double slack) {
         const double length = glm::length(normal);
         if (!(length > 0.0)) continue;
         normal *= (isMirrored ? -1.0 : 1.0) / length;
-        const Plane plane{normal, -glm::dot(normal, a)};
+        const double slack = roundingOf(normal, glm::dmat3(instance.worldFromObject), most,
+                                        glm::dvec3(instance.worldFromObject[3]));
+        const Plane plane{normal, -glm::dot(normal, a), slack};
         bool isHull = true, isFlat = true;
         for (const glm::dvec3& place : places) {
             isHull &= plane.distance(place) <= slack;
@@ -47,23 +72,24 @@ std::vector<Plane> facesOf(const Instance& instance, double slack) {
         }
         if (!isHull) return {};
         planes.push_back(plane);
-        if (isFlat) planes.push_back({-plane.normal, -plane.offset});
+        if (isFlat) planes.push_back({-plane.normal, -plane.offset, slack});
     }
     return planes;
 }
 
 /// True if the light and all others are before one of the instance's faces.
 bool standsBehind(const InstanceList& list, const std::vector<CastingBox>& boxes, std::size_t index,
-                  const LightPlace& light, double slack) {
-    for (const Plane& plane : facesOf(list.instances[index], slack)) {
+                  const LightPlace& light) {
+    for (const Plane& plane : facesOf(list.instances[index])) {
         const double side =
             light.isPositional ? plane.distance(light.at) : glm::dot(plane.normal, light.at);
-        if (!(side > (light.isPositional ? slack : 1e-9))) continue;
+        if (!(side > (light.isPositional ? plane.slack : 1e-9))) continue;
         bool areBefore = true;
         for (std::size_t i = 0; i < boxes.size() && areBefore; ++i) {
             if (i == index || !boxes[i].isThere) continue;
+            const double either = plane.slack + roundingOf(plane.normal, boxes[i]);
             for (const glm::dvec3& corner : boxes[i].corners)
-                areBefore &= plane.distance(corner) >= -slack;
+                areBefore &= plane.distance(corner) >= -either;
         }
         if (areBefore) return true;
     }
@@ -120,6 +146,38 @@ void addCut(const std::array<glm::dvec3, 8>& corners, const std::vector<Plane>& 
     }
 }
 
+std::array<glm::dvec3, 8> cornersOf(const ViewTransform& view) {
+    std::array<glm::dvec3, 8> corners;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const double away = i & 4 ? view.far : view.near;
+        const glm::dvec3 eye((i & 1 ? 1.0 : -1.0) * view.tanHalfFov.x * away,
+                             (i & 2 ? 1.0 : -1.0) * view.tanHalfFov.y * away, -away);
+        corners[i] = view.eye + glm::transpose(view.rotation) * eye;
+    }
+    return corners;
+}
+
+/// Adds the corners of the part of a box that is in the view of these corners and planes.
+void addVisible(const std::array<glm::dvec3, 8>& box, const std::array<glm::dvec3, 8>& view,
+                const std::vector<Plane>& planes, std::vector<glm::dvec3>& out) {
+    bool isInside = true;
+    for (const Plane& plane : planes) {
+        const auto before = std::count_if(box.begin(), box.end(), [&](const glm::dvec3& corner) {
+            return plane.distance(corner) >= 0.0;
+        });
+        if (before == 0) return;
+        isInside &= before == 8;
+    }
+    if (isInside) {
+        out.insert(out.end(), box.begin(), box.end());
+        return;
+    }
+    addCut(box, planes, out);
+    // A flat box has no inside to cut the view by.
+    const std::vector<Plane> sides = planesOf(box);
+    if (sides.size() == kQuads.size()) addCut(view, sides, out);
+}
+
 }  // namespace
 
 std::vector<CastingBox> castingBoxes(const InstanceList& list, bool isTransparent) {
@@ -142,38 +200,43 @@ std::vector<CastingBox> castingBoxes(const InstanceList& list, bool isTransparen
 std::vector<std::size_t> castersUnder(const InstanceList& list,
                                       const std::vector<CastingBox>& boxes,
                                       const LightPlace& light) {
-    const double diagonal = glm::length(list.bounds.max - list.bounds.min);
+    const double large =
+        kLarge * std::min(glm::length(list.bounds.max - list.bounds.min), sumOfDiagonals(boxes));
     std::vector<std::size_t> casters;
-    int large = 0;
+    int looks = 0;
     for (std::size_t i = 0; i < boxes.size(); ++i) {
         if (!boxes[i].casts) continue;
-        // Opposite corners.
-        const bool isLarge =
-            glm::length(boxes[i].corners[7] - boxes[i].corners[0]) > kLarge * diagonal;
-        if (isLarge && large < kMaxLarge) {
-            ++large;
-            if (standsBehind(list, boxes, i, light, 1e-7 * diagonal)) continue;
+        if (diagonalOf(boxes[i]) > large && looks < kMaxLarge) {
+            ++looks;
+            if (standsBehind(list, boxes, i, light)) continue;
         }
         casters.push_back(i);
     }
     return casters;
 }
 
-std::vector<glm::dvec3> visibleCorners(const Box& box, const ViewTransform& view) {
-    std::array<glm::dvec3, 8> ofBox{}, ofView{};
-    for (std::size_t i = 0; i < 8; ++i) {
-        ofBox[i] = {i & 1 ? box.max.x : box.min.x, i & 2 ? box.max.y : box.min.y,
-                    i & 4 ? box.max.z : box.min.z};
-        const double away = i & 4 ? view.far : view.near;
-        const glm::dvec3 eye((i & 1 ? 1.0 : -1.0) * view.tanHalfFov.x * away,
-                             (i & 2 ? 1.0 : -1.0) * view.tanHalfFov.y * away, -away);
-        ofView[i] = view.eye + glm::transpose(view.rotation) * eye;
-    }
+double sumOfDiagonals(const std::vector<CastingBox>& boxes) {
+    double sum = 0.0;
+    for (const CastingBox& box : boxes)
+        if (box.isThere) sum += diagonalOf(box);
+    return sum;
+}
+
+std::vector<glm::dvec3> visibleCorners(const std::array<glm::dvec3, 8>& box,
+                                       const ViewTransform& view) {
     std::vector<glm::dvec3> corners;
-    addCut(ofBox, planesOf(ofView), corners);
-    // A flat box has no inside to cut the view by.
-    const glm::dvec3 size = box.max - box.min;
-    if (std::min({size.x, size.y, size.z}) > 0.0) addCut(ofView, planesOf(ofBox), corners);
+    const std::array<glm::dvec3, 8> ofView = cornersOf(view);
+    addVisible(box, ofView, planesOf(ofView), corners);
+    return corners;
+}
+
+std::vector<glm::dvec3> visibleCorners(const std::vector<CastingBox>& boxes,
+                                       const ViewTransform& view) {
+    std::vector<glm::dvec3> corners;
+    const std::array<glm::dvec3, 8> ofView = cornersOf(view);
+    const std::vector<Plane> planes = planesOf(ofView);
+    for (const CastingBox& box : boxes)
+        if (box.isThere) addVisible(box.corners, ofView, planes, corners);
     return corners;
 }
 

@@ -32,7 +32,15 @@ std::vector<std::size_t> castersUnder(const InstanceList& list,
                                       const std::vector<CastingBox>& boxes,
                                       const LightPlace& light);
 
+/// Returns the length of the boxes' diagonals, world units. Where it is less than the scene's own,
+/// models are far apart.
+double sumOfDiagonals(const std::vector<CastingBox>& boxes);
+
 /// Corners of the part of a box (world space) that is in the view; empty where nothing is.
-std::vector<glm::dvec3> visibleCorners(const Box& box, const ViewTransform& view);
+std::vector<glm::dvec3> visibleCorners(const std::array<glm::dvec3, 8>& box,
+                                       const ViewTransform& view);
+/// The same of the boxes together, each by itself.
+std::vector<glm::dvec3> visibleCorners(const std::vector<CastingBox>& boxes,
+                                       const ViewTransform& view);
 
 }  // namespace farol::render

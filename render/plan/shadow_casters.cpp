@@ -4,6 +4,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "render/plan/shadow_cut.h"
 #include "render/plan/transparency.h"
 
 namespace farol::render {
@@ -74,10 +75,20 @@ class CasterMaker {
             return;
         }
         if (model.texture) dress(item, *model.texture, instance.texture);
+        if (item.texture < 0) cut(item, lightFromObject);
         push(item, isSheet);
     }
 
+    void cut(DrawItem& item, const glm::dmat4& lightFromObject) {
+        std::shared_ptr<const MeshData> part = cutToMap(*item.mesh, lightFromObject, map_.light);
+        if (!part) return;
+        item.mesh = std::move(part);
+        item.indices = item.mesh->mesh.indices().size();
+        item.viewFromObject = glm::mat4(1.0F);
+    }
+
     void push(const DrawItem& item, bool isSheet) {
+        if (item.indices == 0) return;
         items_.push_back(item);
         if (!isSheet) return;
         items_.push_back(item);

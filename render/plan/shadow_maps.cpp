@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <tuple>
 
 #include "render/plan/messages.h"
 #include "render/plan/shadow_bounds.h"
@@ -20,6 +21,16 @@ constexpr double kMargin = 4.0;          // texels round what casts, for the fil
 constexpr double kWidestSpot = 60.0;
 /// Lights farther from the scene's middle than so many of its radii see all of it in one map.
 constexpr double kFar = 1.5;
+/// Lights farther from what is in view than so many of its radii: their rays are parallel within
+/// half a texel, and depths along a perspective would be rounded more than that.
+constexpr double kParallel = 4096.0;
+/// Lights farther from it than so many have it on one side.
+constexpr double kOneSide = 4.0;
+/// Depths of a map reach no farther than so many times its extent, where the view allows it: their
+/// rounding is 2e-6 of the range.
+constexpr double kDeepest = 256.0;
+/// A map farther from its origin than so many of its extents has another.
+constexpr double kFarOff = 64.0;
 
 struct Bounds {
     glm::dvec3 min{1e300}, max{-1e300};
@@ -107,19 +118,21 @@ class ShadowPlanner {
         std::vector<PlannedShadowMap> maps;
         if (light.type == scene::LightType::directional) {
             if (length == 0.0) return maps;
-            seen.rotation = out.rotation = rotationAlong(-along);
-            seen.origin = middle;
-            seen.min = glm::dvec2(-1e300);
-            seen.max = glm::dvec2(1e300);
             casters_ = castersUnder(list_, boxes_, LightPlace{along, false});
-            if (add(seen, maps)) out.maps[0] = 0;
+            addParallel(along, middle, nullptr, maps, out);
             return maps;
         }
         seen.isPerspective = true;
         seen.origin = isFixed ? view_.eye + worldFromEye * placed.position : placed.position;
         // What a light at the eye leaves dark is what the eye does not see.
-        if (glm::length(seen.origin - view_.eye) <= 1e-9 * radius_) return maps;
+        const double atEye = std::min(1e-9 * radius_, 1e-6 * view_.near);
+        if (glm::length(seen.origin - view_.eye) <= std::max(atEye, 1e-15 * glm::length(view_.eye)))
+            return maps;
         casters_ = castersUnder(list_, boxes_, LightPlace{seen.origin, true});
+        if (const std::optional<Beam> beam = beamFrom(seen.origin)) {
+            addParallel(beam->towards, beam->middle, &beam->length, maps, out);
+            return maps;
+        }
         const bool isSpot =
             light.type == scene::LightType::spot && length > 0.0 && light.cutoffDeg < 180.0;
         const double distance = glm::length(middle - seen.origin);
@@ -148,6 +161,73 @@ class ShadowPlanner {
             if (add(seen, maps)) out.maps[face] = static_cast<int>(maps.size()) - 1;
         }
         return maps;
+    }
+
+    /// World space.
+    struct Part {
+        glm::dvec3 middle{0.0};
+        double radius = 0.0;  ///< 0: nothing
+    };
+
+    Part partInView() {
+        Box box;
+        for (const glm::dvec3& corner : visible()) box.add(corner);
+        if (box.empty()) return {};
+        return {0.5 * (box.min + box.max), 0.5 * glm::length(box.max - box.min)};
+    }
+
+    /// From what is in view to a light, world space.
+    struct Beam {
+        glm::dvec3 middle{0.0}, towards{0.0};
+        double length = 0.0;
+    };
+
+    /// The light's rays, where they are as good as parallel: the light is far from what is in view,
+    /// and so is each caster before it, or none stands between the two.
+    std::optional<Beam> beamFrom(const glm::dvec3& light) {
+        const Part part = partInView();
+        Beam beam{part.middle};
+        beam.length = glm::length(light - beam.middle);
+        if (!(part.radius > 0.0) || beam.length <= kParallel * part.radius) return std::nullopt;
+        beam.towards = (light - beam.middle) / beam.length;
+        // Up to there parallel rays are off by less than half a texel, or than depths are.
+        const double straight =
+            std::max(beam.length / kParallel, 1e-6 * beam.length * (beam.length / part.radius));
+        for (const std::size_t i : casters_) {
+            const auto& corners = boxes_[i].corners;
+            const double size = glm::length(corners[7] - corners[0]);
+            const double away = distanceTo(boxes_[i], beam.middle);
+            if (away + size <= straight || away > 0.5 * beam.length) continue;
+            const glm::dvec3 place = 0.5 * (corners[0] + corners[7]) - beam.middle;
+            const double beside = glm::length(place - glm::dot(place, beam.towards) * beam.towards);
+            if (beside <= 0.5 * size + part.radius) return std::nullopt;
+        }
+        return beam;
+    }
+
+    /// `towards`: the light, a unit vector. `length`: of its beam; casters in the farther half, and
+    /// round the light, are left out.
+    void addParallel(const glm::dvec3& towards, const glm::dvec3& middle, const double* length,
+                     std::vector<PlannedShadowMap>& maps, PlannedShadowLight& out) {
+        LightView seen;
+        seen.rotation = out.rotation = rotationAlong(-towards);
+        seen.origin = middle;
+        seen.min = glm::dvec2(-1e300);
+        seen.max = glm::dvec2(1e300);
+        if (length != nullptr)
+            casters_.erase(std::remove_if(casters_.begin(), casters_.end(),
+                                          [&](std::size_t i) {
+                                              return distanceTo(boxes_[i], middle) > 0.5 * *length;
+                                          }),
+                           casters_.end());
+        if (add(seen, maps)) out.maps[0] = 0;
+    }
+
+    /// From a place to the box along the axes round the casting one; 0 within it.
+    static double distanceTo(const CastingBox& casting, const glm::dvec3& place) {
+        Box box;
+        for (const glm::dvec3& corner : casting.corners) box.add(corner);
+        return glm::length(glm::max(glm::max(box.min - place, place - box.max), 0.0));
     }
 
     /// True if a cone has nothing of the face of a cube, whose corners are 54.8 degrees from its
@@ -222,52 +302,144 @@ class ShadowPlanner {
         map.casters.resize(kept);
         if (kept == 0) return false;
         if (light.isPerspective) {
-            light.nearest = std::max(0.5 * light.nearest, 1e-5 * radius_);
+            light.nearest = std::max(0.5 * light.nearest, leastDistance(map.casters, light.origin));
         } else {
-            const double slack = 1e-3 * (light.farthest - light.nearest) + 1e-6 * radius_;
+            cutDepth(light);
+            const double range = light.farthest - light.nearest;
+            const double slack =
+                1e-3 * range + 1e-6 * std::min(radius_, 1e3 * range + extent(light));
             light.nearest -= slack;
             light.farthest += slack;
+            recenter(light);
         }
         map.light = light;
         maps.push_back(std::move(map));
         return true;
     }
 
-    void cutToView(LightView& light) {
-        if (seen_.empty()) seen_ = visibleCorners(list_.bounds, view_);
-        Bounds visible;
-        for (const glm::dvec3& corner : seen_) {
-            const glm::dvec3 at = light.rotation * (corner - light.origin);
-            if (light.isPerspective && -at.z <= 1e-3 * glm::length(at)) return;
-            visible.add(project(at, light.isPerspective));
+    static double extent(const LightView& light) {
+        return std::max(light.max.x - light.min.x, light.max.y - light.min.y);
+    }
+
+    /// Corners of the part of the scene's box that is in view.
+    const std::vector<glm::dvec3>& seen() {
+        if (!seen_) {
+            std::array<glm::dvec3, 8> corners;
+            const Box& box = list_.bounds;
+            for (std::size_t i = 0; i < corners.size(); ++i)
+                corners[i] = {i & 1 ? box.max.x : box.min.x, i & 2 ? box.max.y : box.min.y,
+                              i & 4 ? box.max.z : box.min.z};
+            seen_ = visibleCorners(corners, view_);
         }
-        if (visible.empty()) {
+        return *seen_;
+    }
+
+    /// The same box by box: models far off do not count.
+    const std::vector<glm::dvec3>& visible() {
+        if (!visible_) visible_ = visibleCorners(boxes_, view_);
+        return *visible_;
+    }
+
+    /// The nearest place of a perspective, where casters reach nearer: as far as what is there asks
+    /// for, so that a model far off does not push it away from those at hand.
+    double leastDistance(const std::vector<std::size_t>& casters, const glm::dvec3& light) const {
+        double least = 1e-5 * radius_;
+        for (const std::size_t i : casters) {
+            const auto& corners = boxes_[i].corners;
+            least = std::min(least, std::max(0.25 * distanceTo(boxes_[i], light),
+                                             1e-3 * glm::length(corners[7] - corners[0])));
+        }
+        return std::max(least, 1e-300);
+    }
+
+    /// Where a map's depths reach too far for its extent, they are those of what is in view.
+    /// Casters before them are clamped to the nearest.
+    void cutDepth(LightView& light) {
+        if (light.farthest - light.nearest <= kDeepest * extent(light)) return;
+        double nearest = 1e300, farthest = -1e300;
+        for (const glm::dvec3& corner : visible()) {
+            const double along = -(light.rotation * (corner - light.origin)).z;
+            nearest = std::min(nearest, along);
+            farthest = std::max(farthest, along);
+        }
+        nearest = std::max(nearest, light.nearest);
+        farthest = std::min(farthest, light.farthest);
+        if (nearest > farthest) return;
+        light.nearest = nearest;
+        light.farthest = farthest;
+    }
+
+    /// Floats hold places in the map only near its origin.
+    static void recenter(LightView& light) {
+        const glm::dvec2 middle = 0.5 * (light.min + light.max);
+        const double away = 0.5 * (light.nearest + light.farthest);
+        const double size = extent(light) + light.farthest - light.nearest;
+        if (glm::length(glm::dvec3(middle, away)) <= kFarOff * size) return;
+        light.origin += glm::transpose(light.rotation) * glm::dvec3(middle, -away);
+        light.min -= middle;
+        light.max -= middle;
+        light.nearest -= away;
+        light.farthest -= away;
+    }
+
+    void cutToView(LightView& light) {
+        Bounds part;
+        if (!addInFront(light, seen(), part)) {
+            // Of a scene all round a light that is far from what is in view, one side alone is
+            // seen.
+            const Part lit = partInView();
+            if (glm::length(lit.middle - light.origin) <= kOneSide * lit.radius) return;
+            part = {};
+            if (!addInFront(light, visible(), part) && !part.empty()) return;
+        }
+        if (part.empty()) {
             light.max = light.min - 1.0;  // nothing is in view
             return;
         }
-        const glm::dvec2 min = glm::max(light.min, glm::dvec2(visible.min));
-        const glm::dvec2 max = glm::min(light.max, glm::dvec2(visible.max));
-        const glm::dvec2 whole = light.max - light.min, part = max - min;
-        if (part.x >= 0.5 * whole.x && part.y >= 0.5 * whole.y) return;
-        light.min = min;
-        light.max = max;
+        const auto ofLight = [&light](const Bounds& bounds) {
+            return std::pair(glm::max(light.min, glm::dvec2(bounds.min)),
+                             glm::min(light.max, glm::dvec2(bounds.max)));
+        };
+        const auto [min, max] = ofLight(part);
+        const glm::dvec2 whole = light.max - light.min, size = max - min;
+        if (size.x >= 0.5 * whole.x && size.y >= 0.5 * whole.y) return;
+        Bounds models;
+        if (!addInFront(light, visible(), models) || models.empty()) models = part;
+        std::tie(light.min, light.max) = ofLight(models);
+    }
+
+    /// Adds where places lie in the map; false where one is behind the light.
+    static bool addInFront(const LightView& light, const std::vector<glm::dvec3>& places,
+                           Bounds& bounds) {
+        bool areInFront = true;
+        for (const glm::dvec3& place : places) {
+            const glm::dvec3 at = light.rotation * (place - light.origin);
+            if (light.isPerspective && -at.z <= 1e-3 * glm::length(at))
+                areInFront = false;
+            else
+                bounds.add(project(at, light.isPerspective));
+        }
+        return areInFront;
     }
 
     /// The size of the maps, and of their texels.
     void fit() {
         const int longer = std::max(view_.size.x, view_.size.y);
-        const double most = std::sqrt(kMaxTexels / static_cast<double>(out_.maps.size()));
+        const double share = std::sqrt(kMaxTexels / static_cast<double>(out_.maps.size()));
         const double wanted =
             std::clamp(kTexelsPerPixel * longer, double{kMinSide}, double{kMaxMapSide});
-        const double side = std::min({wanted, most, static_cast<double>(gl_.maxTargetSide)});
+        const double side = std::min({wanted, share, static_cast<double>(gl_.maxTargetSide)});
         out_.side = std::max(64, static_cast<int>(side) / 64 * 64);
         for (PlannedShadowMap& map : out_.maps) {
             LightView& light = map.light;
             const glm::dvec2 middle = 0.5 * (light.min + light.max);
             glm::dvec2 half = 0.5 * (light.max - light.min);
             // A model seen edge-on has an extent too.
-            half = glm::max(half, glm::dvec2(1e-3 * std::max(half.x, half.y) +
-                                             1e-6 * (light.isPerspective ? 1.0 : radius_)));
+            const double most = std::max(half.x, half.y);
+            const double scale = light.isPerspective ? 1.0
+                                 : most > 0.0        ? std::min(radius_, 1e3 * most)
+                                                     : light.farthest - light.nearest;
+            half = glm::max(half, glm::dvec2(1e-3 * most + 1e-6 * scale));
             half *= out_.side / (out_.side - 2.0 * kMargin);
             light.min = middle - half;
             light.max = middle + half;
@@ -285,70 +457,10 @@ class ShadowPlanner {
     int leftOut_ = 0;                   ///< lights for which no maps are left
     std::vector<CastingBox> boxes_;     ///< of the instances
     std::vector<std::size_t> casters_;  ///< of the light at hand
-    std::vector<glm::dvec3> seen_;      ///< corners of the part of the scene that is in view
+    std::optional<std::vector<glm::dvec3>> seen_, visible_;
 };
 
 }  // namespace
-
-glm::dmat4 LightView::clip() const {
-    const glm::dvec2 middle = 0.5 * (min + max), half = 0.5 * (max - min);
-    glm::dmat4 clip(0.0);
-    clip[0][0] = 1.0 / half.x;
-    clip[1][1] = 1.0 / half.y;
-    if (isPerspective) {
-        clip[2][0] = middle.x / half.x;
-        clip[2][1] = middle.y / half.y;
-        clip[2][3] = -1.0;
-        clip[3][2] = nearest;
-        return clip;
-    }
-    clip[3][0] = -middle.x / half.x;
-    clip[3][1] = -middle.y / half.y;
-    clip[2][2] = 1.0 / (farthest - nearest);
-    clip[3][2] = farthest / (farthest - nearest);
-    clip[3][3] = 1.0;
-    return clip;
-}
-
-EyeShadowLight eyeShadowLight(const PlannedShadows& shadows, const PlannedShadowLight& light,
-                              const ViewTransform& view) {
-    EyeShadowLight out{};
-    std::array<float, 8> layers{};
-    const LightView* first = nullptr;
-    for (std::size_t face = 0; face < 6; ++face) {
-        out.faces[face] = glm::vec4(0.0F, 0.0F, 2.0F, 2.0F);
-        if (light.maps[face] < 0) continue;
-        const LightView& map = shadows.maps[static_cast<std::size_t>(light.maps[face])].light;
-        if (first == nullptr) first = &map;
-        const glm::dvec2 middle = 0.5 * (map.min + map.max), half = 0.5 * (map.max - map.min);
-        out.faces[face] = glm::vec4(glm::dvec4(1.0 / half, -middle / half));
-        layers[face] = static_cast<float>(light.maps[face]);
-    }
-    out.layers = {glm::vec4(layers[0], layers[1], layers[2], layers[3]),
-                  glm::vec4(layers[4], layers[5], 0.0F, 0.0F)};
-    if (first == nullptr) return out;
-    const glm::dmat3 turn = light.rotation * glm::transpose(view.rotation);
-    const glm::dvec3 offset = light.rotation * (view.eye - first->origin);
-    const auto row = [&](int i) {
-        return glm::vec4(glm::dvec4(turn[0][i], turn[1][i], turn[2][i], offset[i]));
-    };
-    out.right = row(0);
-    out.up = row(1);
-    out.back = row(2);
-    const double range = first->farthest - first->nearest;
-    out.facts = first->isPerspective ? glm::vec4(first->nearest, 0.0, 0.0, 0.0)
-                                     : glm::vec4(0.0, -1.0 / range, first->farthest / range, 0.0);
-    return out;
-}
-
-void PlannedShadows::mark(std::vector<EyeLight>& list) const {
-    for (std::size_t i = 0; i < ofLights.size(); ++i) {
-        if (ofLights[i] < 0) continue;
-        const PlannedShadowLight& light = lights[static_cast<std::size_t>(ofLights[i])];
-        list[i].diffuse.w = light.isCube ? 2.0F : 1.0F;
-        list[i].ambient.w = static_cast<float>(ofLights[i]);
-    }
-}
 
 PlannedShadows planShadows(const InstanceList& list, const ViewTransform& view, double timeS,
                            bool isTransparent, const GlFacts& gl, Diagnostics& findings) {

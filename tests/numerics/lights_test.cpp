@@ -165,9 +165,16 @@ TEST_CASE("no light and no material of finite numbers gives NaN or infinity") {
         Case one = random(sweep);
         one.options.background = "white";
         const image::Image image = drawMarked(one.xml, kSide, one.options);
-        const int black = dark(image);
-        if (black > 0 && ++bad <= 5)
-            UNSCOPED_INFO(black << " px dark, " << shadingName(one) << ": " << one.xml);
+        const int lost = dark(image);
+        if (lost > 0 && ++bad <= 5)
+            UNSCOPED_INFO(lost << " px dark, " << shadingName(one) << ": " << one.xml);
+        if (*one.options.shading == scene::Shading::phong) {
+            render::PictureOptions shadowed = one.options;
+            shadowed.shadows = scene::Shadows::map;
+            const int black = dark(drawMarked(one.xml, kSide, shadowed));
+            if (black > 0 && ++bad <= 5)
+                UNSCOPED_INFO(black << " px dark with shadows: " << one.xml);
+        }
         if (!one.isExact) continue;
         const reference::Picture expected = exact(one, 0.0, {});
         // A float's rounding puts a light on either side of a near surface or cone.

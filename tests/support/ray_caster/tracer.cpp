@@ -75,12 +75,16 @@ bool isShadowed(const World& world, const EyeLight& light, const glm::dvec3& poi
                                 ? light.position
                                 : point + light.towards * (2.0 * world.reach + glm::length(point));
     const glm::dvec3 direction = point - from;
+    // Before the surface itself, by a share of its distance from the eye: that of a far light's
+    // would pass what casts.
+    const double before =
+        std::clamp(1e-7 * glm::length(point) / glm::length(direction), 1e-13, 1e-7);
     for (const Instance& one : world.instances) {
         if (one.kind == Texture::Kind::blended) continue;
         const Ray ray{one.objectFromView * (from - one.originView), one.objectFromView * direction};
         double begin = 0.0;
         for (;;) {
-            Nearest nearest(begin, 1.0 - 1e-7, one.isSheet);
+            Nearest nearest(begin, 1.0 - before, one.isSheet);
             one.shape->intersect(ray, nearest);
             if (!nearest.found()) break;
             if (!isHole(world, one, ray, nearest.best(), direction)) return true;

@@ -13,16 +13,11 @@ after(async () => {
 });
 
 const wide = { viewport: { width: 1280, height: 800 } };
-/** Until both images rest and nothing newer comes for a while. */
-const rest = async (view, expected = 2) => {
-  for (let calm = 0, last = '', round = 0; calm < 4; ++round) {
-    assert.ok(round < 300, 'the images never came to rest');
-    await view.page.waitForTimeout(150);
-    const now = await view.page.locator('.compared canvas').evaluateAll((all) => all.map((one) => `${one.dataset.count} ${one.dataset.rest} ${one.width}x${one.height}`).join());
-    calm = now === last && now.split('true').length - 1 === expected ? calm + 1 : 0;
-    last = now;
-  }
-};
+/** Until nothing newer is on its way, and so many images rest. */
+const rest = ({ page }, expected = 2) => page.waitForFunction((count) => {
+  const stage = document.querySelector('.compare-stage[aria-busy=false]');
+  return stage && [...stage.querySelectorAll('canvas')].filter((one) => one.dataset.rest === 'true').length === count;
+}, expected, { timeout: 60000 });
 const open = async (first, second, options = {}) => {
   const view = await openPage(browser, `${server.url}/#/compare/${encodeURIComponent(first)}/${encodeURIComponent(second)}${options.view ?? ''}`, { ...wide, ...options });
   await rest(view);
@@ -39,10 +34,9 @@ const openDraft = async (options = {}) => {
   await rest(view);
   return view;
 };
-const mode = async (view, name, expected = 2) => {
+const mode = async (view, name) => {
   await view.page.getByRole('group', { name: 'How they are shown' }).getByRole('button', { name }).click();
-  if (name === 'Difference') await view.page.waitForTimeout(1500);
-  else await rest(view, expected);
+  await rest(view, name === 'Difference' ? 1 : 2);
 };
 /** Digests of what the canvases hold. */
 const pixels = (view) => view.page.locator('.compared canvas').evaluateAll((all) => Promise.all(all.map(async (canvas) => {
@@ -64,8 +58,35 @@ test('edits and the stored scene: findings in words, with the line that opens in
   await cause.click();
   await settled(view);
   await view.page.waitForFunction(() => document.querySelector('.code')?.shadowRoot?.querySelector('.cm-activeLineGutter')?.textContent === '52');
-  await view.page.getByRole('link', { name: 'Compare' }).last().click(); // beside the editor
+  await view.page.locator('.editor-foot').getByRole('link', { name: 'Compare' }).click();
   await rest(view);
+  await view.close();
+});
+
+test('a movement while the images are compared changes neither what is compared nor the page', async () => {
+  const view = await open('torch', 'teapots');
+  // The first image is written out only after newer ones are on show.
+  const count = await view.page.evaluate(() => {
+    const plain = OffscreenCanvas.prototype.convertToBlob;
+    OffscreenCanvas.prototype.convertToBlob = async function (...given) {
+      await window.moved_;
+      return plain.apply(this, given);
+    };
+    window.moved_ = new Promise((done) => (window.go_ = done));
+    return Number(document.querySelector('.compared canvas').dataset.count);
+  });
+  const [sent] = await Promise.all([
+    view.page.waitForRequest((request) => request.url().endsWith('/v1/compare')),
+    (async () => {
+      await view.page.getByRole('button', { name: 'Compare what is on show' }).click();
+      await view.page.getByRole('application').press('ArrowRight');
+      await view.page.waitForFunction((before) => [...document.querySelectorAll('.compared canvas')].every((one) => Number(one.dataset.count) > before), count + 1);
+      await view.page.evaluate(() => window.go_());
+    })(),
+  ]);
+  assert.ok((await sent.response()).ok());
+  await view.page.locator('.compare-words p').first().waitFor();
+  assert.equal(await view.page.locator('.compare-words .problem').count(), 0);
   await view.close();
 });
 
@@ -100,7 +121,7 @@ test('one camera moves both, and the link shows the same', async () => {
     assert.equal(moved[0][name], moved[1][name], name);
   }
   const shown = await pixels(view);
-  await view.page.waitForTimeout(300);
+  await view.page.waitForFunction(() => /az=/.test(location.hash));
   const other = await openPage(browser, view.page.url(), wide);
   await rest(other);
   assert.deepEqual(await pixels(other), shown);

@@ -12,42 +12,55 @@ import type { Opened } from './source.ts';
 export type Mode = 'side' | 'slider' | 'blink' | 'difference';
 export const modes: readonly Mode[] = ['side', 'slider', 'blink', 'difference'];
 
+export interface SideImage {
+  bitmap: ImageBitmap;
+  moving: boolean;
+  count: number;
+  view: string; // what it was asked for with: equal where both show one view
+}
+
 export class Side {
   readonly opened = signal<Opened | null>(null);
-  readonly image = signal<{ bitmap: ImageBitmap; moving: boolean; count: number } | null>(null);
+  readonly image = signal<SideImage | null>(null);
   readonly problem = signal('');
-  private readonly loop: FrameLoop<Frame>;
+  readonly busy = signal(false); // a newer image at rest is on its way
+  private readonly loop: FrameLoop<Frame & { view: string }>;
   private readonly session = newSession();
   private shown: ImageBitmap | null = null;
   private count = 0;
 
-  constructor(options: () => Options) {
-    this.loop = new FrameLoop<Frame>({
+  constructor(options: () => Options, private readonly view: () => string) {
+    this.loop = new FrameLoop<Frame & { view: string }>({
       ask: async ({ seq, pace }, abort) => {
+        const view = this.view();
         const asked: Options = { ...options(), session: this.session, seq };
         if (pace) Object.assign(asked, { scale: pace.scale, aa: 1, error: 1, format: pace.format, quality: pace.quality });
         else asked['format'] = 'png';
         const response = await this.opened.peek()?.ask(asked, abort);
         if (!response) return undefined;
-        return { picture: await decodeFrame(response, asked), serverTiming: response.headers.get('Server-Timing'), wire: takeWireTime(response.url) };
+        return { picture: { ...(await decodeFrame(response, asked)), view }, serverTiming: response.headers.get('Server-Timing'), wire: takeWireTime(response.url) };
       },
-      show: ({ picture, moving }) => this.show(picture.bitmap, moving),
+      show: ({ picture, moving }) => this.show(picture.bitmap, moving, picture.view),
       discard: (frame) => frame.bitmap.close(),
       failed: (fault) => {
         if (fault instanceof Problem && fault.busy) return Math.max(0.3, fault.retryAfterS ?? 1) * 1000;
-        this.problem.value = findingsOf(fault).map((one) => sentence(one)).join(' ');
+        batch(() => {
+          this.busy.value = false;
+          this.problem.value = findingsOf(fault).map((one) => sentence(one)).join(' ');
+        });
         return null;
       },
       now: () => performance.now(),
     });
   }
 
-  private show(bitmap: ImageBitmap, moving: boolean): void {
+  private show(bitmap: ImageBitmap, moving: boolean, view: string): void {
     const before = this.shown;
     this.shown = bitmap;
     batch(() => {
       this.problem.value = '';
-      this.image.value = { bitmap, moving, count: ++this.count };
+      if (!moving) this.busy.value = false;
+      this.image.value = { bitmap, moving, view, count: ++this.count };
     });
     before?.close();
   }
@@ -55,20 +68,25 @@ export class Side {
   take(opened: Opened | null): void {
     this.loop.restart();
     batch(() => {
+      this.busy.value = false;
       this.opened.value = opened;
       this.problem.value = '';
-      this.image.value = opened?.image ? { bitmap: opened.image.bitmap, moving: false, count: ++this.count } : null;
+      this.image.value = opened?.image ? { bitmap: opened.image.bitmap, moving: false, view: '', count: ++this.count } : null;
     });
     this.shown?.close();
     this.shown = null;
   }
 
   moved(): void {
-    if (this.opened.peek()?.facts) this.loop.move();
+    if (!this.opened.peek()?.facts) return;
+    this.busy.value = true;
+    this.loop.move();
   }
 
   settle(): void {
-    if (this.opened.peek()?.facts) this.loop.settle();
+    if (!this.opened.peek()?.facts) return;
+    this.busy.value = true;
+    this.loop.settle();
   }
 
   close(): void {
@@ -90,13 +108,29 @@ export class Pair {
   size: () => StageSize = () => ({ width: 512, height: 512, ratio: 1 });
 
   constructor() {
-    this.first = new Side(() => this.options(this.first));
-    this.second = new Side(() => this.options(this.second));
+    this.first = new Side(() => this.options(this.first), () => this.view);
+    this.second = new Side(() => this.options(this.second), () => this.view);
   }
 
   /** The camera both begin with: that of the first scene. */
   get home(): LookAt | null {
     return this.first.opened.peek()?.facts?.camera ?? this.second.opened.peek()?.facts?.camera ?? null;
+  }
+
+  get busy(): boolean {
+    return this.first.busy.value || this.second.busy.value;
+  }
+
+  private get view(): string {
+    const { width, height, ratio } = this.size();
+    return JSON.stringify([width, height, ratio, this.orbit.peek(), this.time.peek(), this.cameras.peek()]);
+  }
+
+  /** Both images of one view; null while one of them is still of another. An image file has the one view that it has. */
+  get both(): { first: SideImage; second: SideImage } | null {
+    const first = this.first.image.value, second = this.second.image.value;
+    if (!first || !second) return null;
+    return first.view === second.view || first.view === '' || second.view === '' ? { first, second } : null;
   }
 
   /** An image gives the size; else it is that of its place on the page. */

@@ -1,5 +1,5 @@
 // Any two of stored scenes, edits of this browser, files and images, compared.
-import { useEffect, useMemo, useState } from 'preact/hooks';
+import { useEffect, useLayoutEffect, useMemo, useState } from 'preact/hooks';
 import { findingsOf, listScenes, sentence } from '../api.ts';
 import { causesOf, measure, sentences, type Cause } from '../compare/causes.ts';
 import { Pair, modes, type Mode, type Side } from '../compare/pair.ts';
@@ -44,7 +44,7 @@ function Choose({ label, name, scenes, onName }: { label: string; name: string; 
 
 function useSide(side: Side, name: string, pair: Pair): string {
   const [problem, setProblem] = useState('');
-  useEffect(() => {
+  useLayoutEffect(() => {
     let isOld = false;
     side.take(null);
     setProblem('');
@@ -82,15 +82,17 @@ function Findings({ pair }: { pair: Pair }) {
     setCauses(null);
     setProblem('');
   }, [first, second]);
-  const images = [pair.first.image.value, pair.second.image.value];
+  const both = pair.both;
   if (!first || !second) return null;
-  const isReady = images.every((image) => image && !image.moving), areScenes = first.facts !== null && second.facts !== null;
+  const isReady = both !== null && !pair.busy && !both.first.moving && !both.second.moving, areScenes = first.facts !== null && second.facts !== null;
   const find = async (): Promise<void> => {
+    if (!both) return;
     setBusy(true);
     setProblem('');
     try {
-      const [a, b] = images.map((image) => image?.bitmap) as [ImageBitmap, ImageBitmap];
-      setLines(sentences(await measure(...(await Promise.all([pngOf(a), pngOf(b)]))))); // both are drawn now: a movement closes them
+      // Both are read at once: an image that is replaced meanwhile is closed.
+      const [a, b] = await Promise.all([pngOf(both.first.bitmap), pngOf(both.second.bitmap)]);
+      setLines(sentences(await measure(a, b)));
       setCauses(areScenes ? await causesOf(first, second) : null);
     } catch (fault) {
       setProblem(textOf(fault));

@@ -1,5 +1,5 @@
 // The two images: side by side, under a slider, in turn, or their difference; one camera moves both.
-import { useEffect, useRef, useState } from 'preact/hooks';
+import { useEffect, useLayoutEffect, useRef, useState } from 'preact/hooks';
 import { difference } from '../compare/difference.ts';
 import type { Mode, Pair, Side } from '../compare/pair.ts';
 import { panOrbit, turnOrbit, zoomOrbit } from '../maths/camera.ts';
@@ -12,7 +12,7 @@ const gain = 4; // of the difference
 function Picture({ side, label, shown, clip }: { side: Side; label: string; shown: boolean; clip: number }) {
   const canvas = useRef<HTMLCanvasElement>(null);
   const image = side.image.value, opened = side.opened.value;
-  useEffect(() => {
+  useLayoutEffect(() => {
     const surface = canvas.current;
     if (!surface || !image || image.bitmap.width === 0) return; // closed: a newer one is on its way
     surface.width = image.bitmap.width;
@@ -34,10 +34,10 @@ function Picture({ side, label, shown, clip }: { side: Side; label: string; show
 function Difference({ pair }: { pair: Pair }) {
   const canvas = useRef<HTMLCanvasElement>(null);
   const [share, setShare] = useState<number | null>(null);
-  const first = pair.first.image.value, second = pair.second.image.value;
-  useEffect(() => {
+  const both = pair.both, first = both?.first, second = both?.second;
+  useLayoutEffect(() => {
     const surface = canvas.current;
-    if (!surface || !first?.bitmap.width || !second?.bitmap.width) return; // closed: newer ones are on their way
+    if (!surface || !first?.bitmap.width || !second?.bitmap.width) return; // until both are of one view the last difference stays
     const { width, height } = first.bitmap;
     const pixelsOf = (bitmap: ImageBitmap): ImageData => {
       const context = new OffscreenCanvas(width, height).getContext('2d', { alpha: false, willReadFrequently: true }) as OffscreenCanvasRenderingContext2D;
@@ -49,6 +49,7 @@ function Difference({ pair }: { pair: Pair }) {
     surface.width = width;
     surface.height = height;
     surface.getContext('2d')?.putImageData(out, 0, 0);
+    surface.dataset['rest'] = String(!first.moving && !second.moving);
   }, [first, second]);
   return (
     <figure class="compared">
@@ -63,7 +64,7 @@ export function CompareStage({ pair, mode }: { pair: Pair; mode: Mode }) {
   const [slider, setSlider] = useState(50);
   const [isSecond, setSecond] = useState(false);
   const [isBlinking, setBlinking] = useState(!matchMedia('(prefers-reduced-motion: reduce)').matches);
-  useEffect(() => {
+  useLayoutEffect(() => {
     pair.size = () => {
       const box = stage.current?.querySelector('.compared')?.getBoundingClientRect();
       return { width: box?.width || 512, height: box?.height || 512, ratio: window.devicePixelRatio || 1 };
@@ -72,7 +73,7 @@ export function CompareStage({ pair, mode }: { pair: Pair; mode: Mode }) {
     if (stage.current) observer.observe(stage.current);
     return () => observer.disconnect();
   }, [pair]);
-  useEffect(() => pair.settle(), [pair, mode]);
+  useLayoutEffect(() => pair.settle(), [pair, mode]);
   useEffect(() => {
     if (mode !== 'blink' || !isBlinking) return;
     const timer = setInterval(() => setSecond((before) => !before), blinkMs);
@@ -119,7 +120,7 @@ export function CompareStage({ pair, mode }: { pair: Pair; mode: Mode }) {
   const isStacked = mode === 'slider' || mode === 'blink';
   return (
     <div class="compare-view">
-      <div ref={stage} class={`compare-stage of-${mode}`} tabIndex={0} role="application" aria-label={t('Both images. Drag or arrow keys orbit, plus and minus zoom, R resets')}
+      <div ref={stage} class={`compare-stage of-${mode}`} tabIndex={0} role="application" aria-busy={pair.busy} aria-label={t('Both images. Drag or arrow keys orbit, plus and minus zoom, R resets')}
         onKeyDown={press} onContextMenu={(event) => event.preventDefault()} onPointerMove={move} onPointerUp={end} onPointerCancel={end}
         onPointerDown={(event) => {
           if (drag.current) return;

@@ -17,7 +17,12 @@ test('a shape goes into the group’s list, into a new list, or into a group of 
   assert.equal(own.text, course.replace('  </group>\n</world>', '  </group>\n  <group> <models> <model file="cone_1_0.5.3d" /> </models> </group>\n</world>'));
   assert.equal(elementAt(parseXml(own.text), own.added ?? -1)?.name, 'group');
   const named = '<scene><colors/><group><model command="box 1"/></group></scene>';
-  assert.equal(withShape(named, first(named, 'group'), ['sphere', '1']).text, named.replace('</group>', ' <models> <model command="sphere 1"/> </models></group>'));
+  assert.equal(withShape(named, first(named, 'group'), ['sphere', '1']).text, named.replace('</group>', ' <model command="sphere 1"/></group>'));
+  // In the names, quotes and order of the document, whose models stand in no list.
+  const old = "<scene>\n\t<Group name='a'>\n\t\t<Model FILE='box_1.3d' diffR='1'/>\n\t\t<Group name='b'/>\n\t</Group>\n</scene>\n", outer = first(old, 'group');
+  assert.equal(withShape(old, outer, ['sphere', '1']).text, old.replace("diffR='1'/>", "diffR='1'/>\n\t\t<Model FILE='sphere_1.3d'/>"));
+  assert.equal(withShape(old, outer.children[1], ['sphere', '1']).text, old.replace("<Group name='b'/>", "<Group name='b'>\n\t\t\t<Model FILE='sphere_1.3d'/>\n\t\t</Group>"));
+  assert.equal(withShape(old, undefined, ['sphere', '1']).text, old.replace('</Group>\n</scene>', "</Group>\n\t<Group> <Model FILE='sphere_1.3d'/> </Group>\n</scene>"));
   assert.ok(shapes.length > 8 && shapes.every(({ name, call }) => call[0] === name && call.length > 1));
 });
 

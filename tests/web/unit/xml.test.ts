@@ -72,7 +72,7 @@ test('a colour is written where it stands, and nothing else changes', () => {
 
 test('what is not there yet is added in the manner of the document', () => {
   const one = setColor(course, 'model', 1, 'diffuse', [1, 0, 0]);
-  assert.ok(one.includes(`      <model file="b.3d">\n        <color> <diffuse R="255" G="0" B="0" /> </color>\n      </model>\n`), one);
+  assert.ok(one.includes(`      <model file="b.3d">\n        <color> <diffuse R="255" G="0" B="0"/> </color>\n      </model>\n`), one);
   const shiny = setShininess(one, 1, 32);
   assert.equal(shininessOf(elementOf(parseXml(shiny), 'model', 1) as never), 32);
   const old = '<scene><group><translate x="1"/><models><model file="a.3d" diffR="0.5" diffG=".2" diffB="1"/></models></group></scene>';
@@ -95,7 +95,7 @@ test('lights and textures', () => {
   assert.ok(setNumber(text, 'light', 0, ['linear', 'lin'], 0.5).includes('z="3" linear="0.5"/>'));
   const textured = setTexture(text, 0, 'a "b".png');
   assert.equal(textureOf(elementOf(parseXml(textured), 'model', 0) as never), 'a "b".png');
-  assert.ok(setTexture(textured, 0, 'c.png').includes('<texture file="c.png" />'));
+  assert.ok(setTexture(textured, 0, 'c.png').includes('<texture file="c.png"/>'));
 });
 
 test('the camera light is added once and then turned', () => {
@@ -114,6 +114,9 @@ test('attributes keep their quotes and get them where they had none', () => {
   assert.equal(applyEdits(text, [setAttribute(element, ['b'], 'x')]), `<a b='x' c=2 d>`);
   assert.equal(applyEdits(text, [setAttribute(element, ['C'], 'x')]), `<a b='1' c="x" d>`);
   assert.equal(applyEdits(text, [setAttribute(element, ['e'], '<"&')]), `<a b='1' c=2 e="&lt;&quot;&amp;" d>`);
+  assert.equal(applyEdits(text, [setAttribute(element, ['b'], "it's")]), `<a b='it&apos;s' c=2 d>`);
+  const single = `<a b='1'>`;
+  assert.equal(applyEdits(single, [setAttribute(parseXml(single)[0] as never, ['c'], "it's")]), `<a b='1' c='it&apos;s'>`);
 });
 
 test('columns are bytes, places are characters', () => {

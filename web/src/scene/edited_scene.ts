@@ -23,6 +23,7 @@ interface KeptDraft {
 }
 
 const draftDelayMs = 200;
+const unixLines = (text: string): string => text.replace(/\r\n?/g, '\n');
 
 export abstract class EditedScene {
   readonly original = signal<string | null>(null);
@@ -38,6 +39,7 @@ export abstract class EditedScene {
   readonly canUndo = signal(false);
   readonly canRedo = signal(false);
 
+  private lineEnd = '\n'; // of the document as it came
   private readonly history = new History();
   private draftTimer: ReturnType<typeof setTimeout> | undefined;
   private hide: ((text: string, hidden: readonly number[]) => string) | null = null;
@@ -75,7 +77,7 @@ export abstract class EditedScene {
     if (beside && isChanged(beside.files)) this.files.value = beside.files;
     const marks = beside?.marks ?? noMarks;
     if (draft || isChanged(this.files.value) || isMarked(marks)) await this.loadText();
-    if (draft) this.text.value = draft.text;
+    if (draft) this.text.value = unixLines(draft.text);
     const base = hashText(this.original.value ?? '');
     if (beside && beside.base === base) {
       this.history.read(beside.history);
@@ -88,11 +90,22 @@ export abstract class EditedScene {
 
   async loadText(): Promise<void> {
     if (this.id === null || this.original.value !== null) return;
-    const source = await getSource(this.id);
+    this.takeText(await getSource(this.id));
+  }
+
+  /** A document as it came. It is edited with "\n" alone, which the editor has at the end of a line. */
+  protected takeText(source: string): void {
+    const text = unixLines(source);
+    this.lineEnd = source.includes('\r\n') && !/[^\r]\n/.test(source) ? '\r\n' : '\n';
     batch(() => {
-      this.original.value = source;
-      this.text.value ??= source;
+      this.original.value = text;
+      this.text.value ??= text;
     });
+  }
+
+  /** The document to be saved, with the line ends that it came with. */
+  written(): string {
+    return (this.text.value ?? '').replaceAll('\n', this.lineEnd);
   }
 
   /** The files that the scene came with, its document apart. */

@@ -19,7 +19,7 @@ export async function fileOf(viewer: Viewer, path: string): Promise<Blob | null>
 export async function everything(viewer: Viewer): Promise<Blob> {
   await viewer.loadText();
   const { main, files } = await viewer.loadFiles();
-  const out = [{ path: main, file: new Blob([viewer.text.value ?? '']) }];
+  const out = [{ path: main, file: new Blob([viewer.written()]) }];
   for (const { path } of listFiles(files, viewer.files.value)) {
     const file = await fileOf(viewer, path);
     if (file) out.push({ path, file });

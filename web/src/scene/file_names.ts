@@ -1,6 +1,6 @@
 // Names of files in the document.
 import { baseName, pathFor, withFile, type FileChanges, type Missing } from './scene_files.ts';
-import { applyEdits, escapeXml, parseXml, walkXml, type Edit } from './xml.ts';
+import { applyEdits, parseXml, setValue, walkXml, type Edit } from './xml.ts';
 
 const ending = (path: string): string => /\.[^./\\]*$/.exec(path)?.[0].toLowerCase() ?? '';
 
@@ -8,8 +8,7 @@ const ending = (path: string): string => /\.[^./\\]*$/.exec(path)?.[0].toLowerCa
 export function renameInText(text: string, from: string, to: string): string {
   const edits: Edit[] = [];
   for (const element of walkXml(parseXml(text)))
-    for (const { value, valueStart, valueEnd, quoted } of element.attributes)
-      if (pathFor(value) === from) edits.push({ from: valueStart, to: valueEnd, insert: quoted ? escapeXml(to) : `"${escapeXml(to)}"` });
+    for (const attribute of element.attributes) if (pathFor(attribute.value) === from) edits.push(setValue(attribute, to));
   return applyEdits(text, edits);
 }
 

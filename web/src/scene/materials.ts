@@ -1,5 +1,6 @@
 // Materials and lights in the XML, in whichever dialect the document writes them.
 import { spellings } from './language.ts';
+import { emptyElement, ownName } from './writing.ts';
 import {
   appendChild, applyEdits, attributeOf, childOf, indentUnit, lineOf, parseXml, setAttribute, walkXml, type Edit, type XmlElement,
 } from './xml.ts';
@@ -144,7 +145,7 @@ export function setColor(text: string, kind: Part['kind'], index: number, compon
     const max = numberOf(child, ['max'], 255);
     return applyEdits(text, channels(child, (c) => spellings('diffuse', c), max));
   }
-  const wide = (): string => `<${component} ${channel.map((c, i) => `${c}="${Math.round((color[i] as number) * 255)}"`).join(' ')} />`;
+  const wide = (): string => emptyElement(text, component, channel.map((c, i) => [c, String(Math.round((color[i] as number) * 255))]));
   if (holder) return applyEdits(text, [appendChild(text, holder, wide(), unit)]);
   if (attributeOf(element, words[component])) return applyEdits(text, [setAttribute(element, words[component], toHex(color))]);
   const present = channel.map((c) => numberIn(element, channelNames(element, component, c))).filter((value) => value !== undefined);
@@ -167,10 +168,11 @@ export function setShininess(text: string, index: number, value: number): string
   if (!element) return text;
   const holder = colorElement(element), child = holder && childOf(holder, 'shininess');
   if (child) return applyEdits(text, [setAttribute(child, exponentNames, trim(value))]);
-  if (holder) return applyEdits(text, [appendChild(text, holder, `<shininess value="${trim(value)}" />`, indentUnit(text, roots))]);
+  const shininess = emptyElement(text, 'shininess', [['value', trim(value)]]);
+  if (holder) return applyEdits(text, [appendChild(text, holder, shininess, indentUnit(text, roots))]);
   if (mannerOf(roots) !== 'course' || attributeOf(element, shininessNames))
     return applyEdits(text, [setAttribute(element, shininessNames, trim(value))]);
-  return applyEdits(text, [appendChild(text, element, `<color> <shininess value="${trim(value)}" /> </color>`, indentUnit(text, roots))]);
+  return applyEdits(text, [appendChild(text, element, `<color> ${shininess} </color>`, indentUnit(text, roots))]);
 }
 
 /** Sets an attribute of a model or light. */
@@ -191,7 +193,7 @@ export function setTexture(text: string, index: number, file: string): string {
   if (child) return applyEdits(text, [setAttribute(child, fileNames, file)]);
   if (attributeOf(model, textureNames) || mannerOf(roots) !== 'course')
     return applyEdits(text, [setAttribute(model, textureNames, file)]);
-  return applyEdits(text, [appendChild(text, model, `<texture file="${file.replaceAll('"', '&quot;')}" />`, indentUnit(text, roots))]);
+  return applyEdits(text, [appendChild(text, model, emptyElement(text, ownName(roots, 'texture'), [['file', file]]), indentUnit(text, roots))]);
 }
 
 /** The textures that the document names, for a choice among them. */

@@ -8,7 +8,7 @@ export async function storeEdited(viewer: Viewer): Promise<void> {
   try {
     const base: Record<string, string> = viewer.id === null ? {} : { base: viewer.id };
     const response = await request(`v1/scenes?${query(base)}`, {
-      method: 'POST', ...bodyOf({ ...viewer.document(), text: viewer.text.value }),
+      method: 'POST', ...bodyOf({ ...viewer.document(), text: viewer.written() }),
     });
     const scene = (await response.json()) as SceneFacts;
     const view = {

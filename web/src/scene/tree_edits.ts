@@ -3,8 +3,8 @@ import tables from 'document:schema';
 import { spellings } from './language.ts';
 import { mannerOf } from './materials.ts';
 import { kindOf } from './tree.ts';
-import { axisName, emptyElement, vectorNames } from './writing.ts';
-import { appendChild, applyEdits, indentUnit, insertAfter, insertBefore, parseXml, prependChild, removeElement, walkXml, type XmlElement } from './xml.ts';
+import { axisName, emptyElement, ownName, vectorNames } from './writing.ts';
+import { appendChild, applyEdits, attributeOf, indentUnit, insertAfter, insertBefore, parseXml, prependChild, removeElement, walkXml, type XmlElement } from './xml.ts';
 
 /** The text after an edit, and the index of the "<" of what is new; null: nothing is. */
 export interface Edited {
@@ -37,23 +37,36 @@ const isNamed = (element: XmlElement, name: string): boolean => spellings(name).
 const inserted = (text: string, edit: { from: number; to: number; insert: string }, piece: string): Edited =>
   ({ text: applyEdits(text, [edit]), added: edit.from + edit.insert.indexOf(piece) });
 
+/** Whether models stand in lists, as in the document's first one. */
+function listsModels(roots: readonly XmlElement[]): boolean {
+  const first = [...walkXml(roots)].find((one) => kindOf(one) === 'model');
+  return !first?.parent || isNamed(first.parent, 'models');
+}
+
 /** A shape in a group, or in a new group of the root, where it can be moved. */
 export function withShape(text: string, group: XmlElement | undefined, call: readonly string[]): Edited {
   const roots = parseXml(text), root = roots[0], unit = indentUnit(text, roots);
   if (!root) return { text, added: null };
-  const model = mannerOf(roots) === 'engine2020' ? emptyElement(text, 'model', [['command', call.join(' ')]]) : emptyElement(text, 'model', [['file', `${call.join('_')}.3d`]]);
+  const [groupName, list, name] = (['group', 'models', 'model'] as const).map((kind) => ownName(roots, kind)) as [string, string, string];
+  const fileNames = spellings('model', 'file'), example = [...walkXml(roots)].find((one) => kindOf(one) === 'model' && attributeOf(one, fileNames));
+  const file = (example && attributeOf(example, fileNames)?.name) ?? (fileNames[0] as string);
+  const model = emptyElement(text, name, mannerOf(roots) === 'engine2020' ? [['command', call.join(' ')]] : [[file, `${call.join('_')}.3d`]]);
+  const listed = listsModels(roots) ? `<${list}> ${model} </${list}>` : model;
   if (!group) {
-    const piece = `<group> <models> ${model} </models> </group>`;
+    const piece = `<${groupName}> ${listed} </${groupName}>`;
     return inserted(text, appendChild(text, root, piece, unit), piece);
   }
   const models = group.children.find((child) => isNamed(child, 'models'));
-  return inserted(text, models ? appendChild(text, models, model, unit) : appendChild(text, group, `<models> ${model} </models>`, unit), model);
+  if (models) return inserted(text, appendChild(text, models, model, unit), model);
+  // Before groups within: the dialects want the models first.
+  const last = group.children.filter((child) => kindOf(child) === 'model').at(-1), inner = group.children.find((child) => kindOf(child) === 'group');
+  return inserted(text, last ? insertAfter(text, last, model) : inner ? insertBefore(text, inner, listed) : appendChild(text, group, listed, unit), model);
 }
 
 export function withGroup(text: string, group: XmlElement | undefined, name: string): Edited {
   const roots = parseXml(text), parent = group ?? roots[0];
   if (!parent) return { text, added: null };
-  const piece = emptyElement(text, 'group', [['name', name]]);
+  const piece = emptyElement(text, ownName(roots, 'group'), [['name', name]]);
   return inserted(text, appendChild(text, parent, piece, indentUnit(text, roots)), piece);
 }
 
@@ -64,12 +77,12 @@ export function withLight(text: string, type: 'point' | 'directional' | 'spot'):
   const example = [...walkXml(roots)].find((one) => kindOf(one) === 'light'), place = vectorNames('light', 'pos'), aim = vectorNames('light', 'dir');
   const name = (names: typeof place, axis: 'x' | 'y' | 'z'): string => (example ? axisName(example, names, axis) : names[axis][0] as string);
   const vector = (names: typeof place, [x, y, z]: readonly [string, string, string]) => [[name(names, 'x'), x], [name(names, 'y'), y], [name(names, 'z'), z]] as const;
-  const piece = emptyElement(text, 'light', [
+  const piece = emptyElement(text, ownName(roots, 'light'), [
     ['type', type], ...(type === 'directional' ? [] : vector(place, ['2', '4', '2'])), ...(type === 'point' ? [] : vector(aim, type === 'spot' ? ['-2', '-4', '-2'] : ['2', '4', '2'])),
     ...(type === 'spot' ? [['cutoff', '30'] as const] : []),
   ]);
   const lights = root.children.find((child) => isNamed(child, 'lights'));
   if (lights) return inserted(text, appendChild(text, lights, piece, unit), piece);
-  const list = `<lights> ${piece} </lights>`, first = root.children.find((child) => ['group', 'models', 'model'].some((one) => isNamed(child, one)));
+  const own = ownName(roots, 'lights'), list = `<${own}> ${piece} </${own}>`, first = root.children.find((child) => ['group', 'models', 'model'].some((one) => isNamed(child, one)));
   return inserted(text, first ? insertBefore(text, first, list) : root.children.length > 0 ? appendChild(text, root, list, unit) : prependChild(text, root, list, unit), piece);
 }

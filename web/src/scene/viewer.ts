@@ -108,10 +108,7 @@ export class Viewer extends EditedScene {
       this.options.value = link.options;
       this.clock.seek(link.time ?? 0);
     });
-    if (this.id === null) {
-      this.original.value = template;
-      this.text.value = template;
-    }
+    if (this.id === null) this.takeText(template);
     await this.begin(draft);
   }
 

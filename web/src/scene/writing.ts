@@ -3,7 +3,7 @@ import { spellings } from './language.ts';
 import { mannerOf } from './materials.ts';
 import { axes, numberAt, type Axis } from './transforms.ts';
 import { parseNumber, plainStyle, styleOf, writeNumber } from './number_text.ts';
-import { attributeOf, escapeXml, setAttribute, walkXml, type Edit, type XmlElement } from './xml.ts';
+import { attributeOf, escapeFor, parseXml, setAttribute, walkXml, type Edit, type XmlElement } from './xml.ts';
 import type { Vec3 } from '../maths/vec.ts';
 
 const inCaseOf = (axis: Axis, example: string): string => (/[XYZ]$/.test(example) ? axis.toUpperCase() : axis);
@@ -27,12 +27,12 @@ export const vectorNames = (element: string, prefix = ''): Record<Axis, readonly
 export function setVector(element: XmlElement, names: Record<Axis, readonly string[]>, before: Vec3, after: Vec3, decimals: number): Edit[] {
   const texts = axes.map((axis) => attributeOf(element, names[axis])?.value), least = Math.max(0, ...texts.map((text) => styleOf(text ?? '').decimals));
   let added = ''; // all in one place, in their order
-  const edits: Edit[] = [];
+  const edits: Edit[] = [], quote = element.attributes[element.attributes.length - 1]?.quote || '"';
   axes.forEach((axis, i) => {
     if (after[i] === before[i]) return;
     const text = texts[i], value = after[i] as number;
     if (text !== undefined) edits.push(setAttribute(element, names[axis], writeNumber(value, styleOf(text), decimals)));
-    else added += ` ${axisName(element, names, axis)}="${writeNumber(value, { ...plainStyle, decimals: Math.min(least, 3) }, decimals)}"`;
+    else added += ` ${axisName(element, names, axis)}=${quote}${writeNumber(value, { ...plainStyle, decimals: Math.min(least, 3) }, decimals)}${quote}`;
   });
   if (added !== '') {
     const last = element.attributes[element.attributes.length - 1], at = last ? last.end : element.start + 1 + element.name.length;
@@ -60,16 +60,32 @@ export function wrapsTransforms(roots: readonly XmlElement[]): boolean {
   return mannerOf(roots) === 'course';
 }
 
+/** What comes most often; of as many the first. */
+function commonest<T>(all: Iterable<T>, otherwise: T): T {
+  const counts = new Map<T, number>();
+  for (const one of all) counts.set(one, (counts.get(one) ?? 0) + 1);
+  return [...counts].reduce(([best, most], [one, count]) => (count > most ? [one, count] : [best, most]), [otherwise, 0] as [T, number])[0];
+}
+
 /** The end and the quote of the document's empty elements. */
 function habitsOf(text: string): { end: string; quote: string } {
-  const end = /[\w"'](\s*)\/>/.exec(text)?.[1] ?? ' ', quote = /=\s*(["'])/.exec(text)?.[1] ?? '"';
-  return { end: end === '' ? '/>' : ' />', quote };
+  const ends: string[] = [], quotes: string[] = [];
+  for (const { selfClosing, start, openEnd, attributes } of walkXml(parseXml(text))) {
+    for (const { quote } of attributes) if (quote) quotes.push(quote);
+    // After a value without quotes a blank is no habit.
+    if (selfClosing && attributes[attributes.length - 1]?.quote !== '') ends.push(/\s\/\s*>$/.test(text.slice(start, openEnd)) ? ' />' : '/>');
+  }
+  return { end: commonest(ends, ' />'), quote: commonest(quotes, '"') };
 }
+
+/** The document's own name for a kind of element. */
+export const ownName = (roots: readonly XmlElement[], kind: 'group' | 'models' | 'model' | 'light' | 'lights' | 'texture' | 'color' | 'shininess'): string =>
+  [...walkXml(roots)].find((one) => spellings(kind).some((name) => name.toLowerCase() === one.name.toLowerCase()))?.name ?? (spellings(kind)[0] as string);
 
 /** An empty element with attributes [name, value], as the document writes them. */
 export function emptyElement(text: string, name: string, attributes: readonly (readonly [string, string])[]): string {
   const { end, quote } = habitsOf(text);
-  return `<${name}${attributes.map(([key, value]) => ` ${key}=${quote}${escapeXml(value).replaceAll("'", '&apos;')}${quote}`).join('')}${end}`;
+  return `<${name}${attributes.map(([key, value]) => ` ${key}=${quote}${escapeFor(quote, value)}${quote}`).join('')}${end}`;
 }
 
 /** A new transform with these numbers, spelled like the document's own of that kind. */

@@ -9,7 +9,7 @@ export interface XmlAttribute {
   start: number; // of the name
   valueStart: number; // inside the quotes, where there are any
   valueEnd: number;
-  quoted: boolean;
+  quote: '"' | "'" | ''; // '': it has none
   end: number;
 }
 
@@ -59,7 +59,8 @@ function takeAttributes(text: string): { found: XmlAttribute[]; rest: string } {
     if (name === undefined) return declaration === undefined ? all : blanks(all);
     const closed = double ?? single, raw = closed ?? unclosed ?? bare, end = start + all.length;
     const valueEnd = closed === undefined ? end : end - 1;
-    found.push({ name, value: unescape(raw), start, valueStart: valueEnd - raw.length, valueEnd, quoted: closed !== undefined || unclosed !== undefined, end });
+    const quote = closed === undefined && unclosed === undefined ? '' : (text[valueEnd - raw.length - 1] as '"' | "'");
+    found.push({ name, value: unescape(raw), start, valueStart: valueEnd - raw.length, valueEnd, quote, end });
     return closed === undefined ? blanks(all) : all;
   });
   return { found, rest };
@@ -140,13 +141,21 @@ export function attributeOf(element: XmlElement, names: readonly string[]): XmlA
 export const childOf = (element: XmlElement, ...names: string[]): XmlElement | undefined =>
   element.children.find((child) => names.includes(child.name.toLowerCase()));
 
-/** Sets the attribute under the name it has, or adds it under the first of the names. */
+/** A value between quotes of that kind. */
+export const escapeFor = (quote: string, value: string): string => (quote === "'" ? escapeXml(value).replaceAll("'", '&apos;') : escapeXml(value));
+
+/** The edit that replaces an attribute's value. */
+export const setValue = ({ valueStart, valueEnd, quote }: XmlAttribute, value: string): Edit =>
+  ({ from: valueStart, to: valueEnd, insert: quote ? escapeFor(quote, value) : `"${escapeXml(value)}"` });
+
+/** Sets the attribute under the name it has, or adds it under the first of the names, quoted like the one before. */
 export function setAttribute(element: XmlElement, names: readonly string[], value: string): Edit {
   const found = attributeOf(element, names);
-  if (found) return { from: found.valueStart, to: found.valueEnd, insert: found.quoted ? escapeXml(value) : `"${escapeXml(value)}"` };
+  if (found) return setValue(found, value);
   const last = element.attributes[element.attributes.length - 1];
   const at = last ? last.end : element.start + 1 + element.name.length;
-  return { from: at, to: at, insert: ` ${names[0]}="${escapeXml(value)}"` };
+  const quote = last?.quote || '"';
+  return { from: at, to: at, insert: ` ${names[0]}=${quote}${escapeFor(quote, value)}${quote}` };
 }
 
 export const lineOf = (text: string, at: number): number => text.slice(0, at).split('\n').length;

@@ -64,7 +64,7 @@ export function Editor({ viewer }: { viewer: Viewer }) {
     await storeEdited(viewer);
     setStoring(false);
   };
-  const save = (): void => saveBlob(new Blob([viewer.text.value ?? ''], { type: 'application/xml' }), 'scene.xml');
+  const save = (): void => saveBlob(new Blob([viewer.written()], { type: 'application/xml' }), 'scene.xml');
   return (
     <div class="editor">
       {problem && <p class="problem" role="alert">{problem}</p>}

@@ -243,6 +243,35 @@ test('the middle of the handles is where an animated group is at that time', asy
   await view.close();
 });
 
+test('beside a turn with time a still one is added and turned; words and a line lead to what handles leave as it is', async () => {
+  const text = redBall('\n    <transform>\n      <translate x="-1" y="0" z="0"/>\n      <rotate time="8" x="0" y="1" z="0"/>\n      <translate x="2" y="0" z="0"/>\n      <rotate time="-5" x="0" y="1" z="0"/>\n    </transform>');
+  const view = await openDraft(text);
+  await select(view, 'Ball');
+  const notes = view.page.locator('.gizmo-note');
+  assert.deepEqual((await notes.allInnerTexts()).map((one) => /once in (\d+) s.*line (\d+)$/s.exec(one)?.slice(1)), [['8', '6'], ['5', '8']]);
+  await tool(view, 'Turn');
+  // The plane of the ring about X is seen from its edge: the keys turn it.
+  const before = await canvasPixels(view.page), ring = view.page.getByRole('slider', { name: 'Turn about Z' });
+  await ring.focus();
+  for (let i = 0; i < 3; ++i) await ring.press('PageUp');
+  await settled(view);
+  const turned = text.replace('<translate x="2" y="0" z="0"/>\n', '<translate x="2" y="0" z="0"/>\n      <rotate angle="450" x="0" y="0" z="1"/>\n');
+  assert.equal((await draftOf(view)).replace(/angle="[\d.]+"/, 'angle="450"'), turned);
+  assert.notDeepEqual(await canvasPixels(view.page), before, 'turned in the image, too');
+  const seconds = view.page.getByRole('spinbutton', { name: 'Seconds a turn' }).first();
+  await seconds.fill('0');
+  await seconds.press('Enter');
+  assert.equal((await draftOf(view)).includes('time="0"'), false, 'a turn in no time is none');
+  await seconds.fill('12');
+  await seconds.press('Enter');
+  await settled(view);
+  assert.match(await draftOf(view), /<rotate time="12" x="0" y="1" z="0"\/>/);
+  assert.match((await notes.allInnerTexts())[0], /once in 12 s/);
+  await notes.first().getByRole('button', { name: 'line 6' }).click();
+  await view.page.waitForFunction(() => document.querySelector('.code')?.shadowRoot?.querySelector('.cm-activeLineGutter')?.textContent === '6');
+  await view.close();
+});
+
 test('a finger drags a handle on a phone, and the scene does not orbit', async () => {
   const view = await openDraft(redBall('\n    <transform><translate x="0" y="0" z="0"/></transform>'), { viewport: { width: 360, height: 740 }, hasTouch: true, isMobile: true, deviceScaleFactor: 2 });
   await select(view, 'Ball');

@@ -122,12 +122,29 @@ test('a turn is added after the translate, with the attributes of the dialect; a
   assert.equal(applyEdits(old, targets(old).rings[1]?.write(45, 1) ?? []), old.replace('z="8"/>', 'z="8"/> <rotate angle="45" axisX="0" axisY="1" axisZ="0"/>'));
   const slanted = targets('<world><group><transform><rotate angle="20" x="1" y="1" z="0"/></transform></group></world>').rings;
   assert.deepEqual(slanted.map(({ name, angle }) => [name, angle]), [['x', null], ['y', null], ['z', null], ['', 20]]);
-  // Two turns, each by its own angle; one that goes on with time has no handle.
+  // Two turns, each by its own angle.
   const two = targets('<scene><group><rotate axisX="1" angle="20"/><rotate axisY="1" angle="5"/></group></scene>').rings;
   assert.deepEqual(two.map(({ name, angle }) => [name, angle]), [['x', 20], ['y', 5]]);
   near(applyLinear(two[1]?.frame as Affine, [0, 1, 0]), applyLinear(rotation([1, 0, 0], 20), [0, 1, 0]));
-  const spun = targets('<scene><group><rotate axisY="1" time="5"/></group></scene>');
-  assert.deepEqual([spun.rings.length, spun.spins], [0, true]);
+});
+
+test('a turn with time is left as it is: a still turn is added before it or changed beside it, and its time is a number', () => {
+  const spun = '<scene><group><translate z="8"/><rotate axisY="1" time="5"/></group></scene>', { rings, motions } = targets(spun, 'group', 0, 1.25);
+  assert.deepEqual(rings.map(({ name, angle }) => [name, angle]), [['x', 0], ['y', 0], ['z', 0]]);
+  near(applyLinear(rings[0]?.frame as Affine, [1, 0, 0]), [1, 0, 0], 'the axes do not turn with it');
+  assert.equal(applyEdits(spun, rings[2]?.write(30, 1) ?? []), spun.replace('z="8"/>', 'z="8"/> <rotate angle="30" axisX="0" axisY="0" axisZ="1"/>'));
+  assert.deepEqual(motions.map(({ kind, seconds, element }) => [kind, seconds, element.name]), [['turn', 5, 'rotate']]);
+  assert.equal(applyEdits(spun, motions[0]?.write(-7.5, 6) ?? []), spun.replace('"5"', '"-7.5"'));
+  // What it carries is turned where it is.
+  const planet = '<world><group><transform><rotate time="4" y="1"/><translate x="3"/></transform></group></world>', own = targets(planet, 'group', 0, 1).rings[1];
+  near(own?.frame.origin as Vec3, [0, 0, -3], 'a quarter of a turn');
+  assert.equal(applyEdits(planet, own?.write(20, 1) ?? []), planet.replace('x="3"/>', 'x="3"/> <rotate angle="20" x="0" y="1" z="0"/>'));
+  // A still turn beside it has its handle; the one with time is not touched.
+  const both = '<world><group><transform><rotate angle="15" x="0" y="0" z="1"/><rotate time="10" x="0" y="1" z="0"/></transform></group></world>', still = targets(both).rings;
+  assert.deepEqual(still.map(({ name, angle }) => [name, angle]), [['x', null], ['y', null], ['z', 15]]);
+  assert.equal(applyEdits(both, still[2]?.write(10, 1) ?? []), both.replace('"15"', '"25"'));
+  const curve = targets('<world><group><translate time="6"><point x="1"/><point x="2"/><point x="3"/><point x="4"/></translate></group></world>');
+  assert.deepEqual(curve.motions.map(({ kind, seconds }) => [kind, seconds]), [['lap', 6]]);
 });
 
 test('a size is changed where it is, or added last', () => {

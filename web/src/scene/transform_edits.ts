@@ -25,11 +25,19 @@ export interface Ring {
   write(delta: number, decimals: number): Edit[];
 }
 
+/** A turn or a lap that goes on with time. */
+export interface Motion {
+  kind: 'turn' | 'lap';
+  element: XmlElement;
+  seconds: number; // negative: the other way round
+  write(seconds: number, decimals: number): Edit[];
+}
+
 export interface Targets {
   move: VectorTarget | null;
   scale: VectorTarget | null;
   rings: readonly Ring[];
-  spins: boolean; // it turns with time
+  motions: readonly Motion[];
 }
 
 interface Document {
@@ -38,7 +46,7 @@ interface Document {
 }
 
 const units: readonly Vec3[] = [[1, 0, 0], [0, 1, 0], [0, 0, 1]];
-const none: Targets = { move: null, scale: null, rings: [], spins: false };
+const none: Targets = { move: null, scale: null, rings: [], motions: [] };
 
 /** Where a new transform goes: first, or after one that is there. */
 function insertTransform({ text, roots }: Document, group: XmlElement, after: XmlElement | undefined, piece: string): Edit {
@@ -117,12 +125,18 @@ function ringsOf(document: Document, group: XmlElement, outer: Affine, transform
     const rings = units.map((axis, i): Ring => ({ axis, name: axes[i] as string, frame, ...turnOf(found, axis) }));
     return own.name === '' ? [...rings, own] : rings;
   }
-  if (transforms.some((one) => one.form === 'spin')) return [];
+  // Before a turn with time, which is turned as a whole, or after the place that it carries.
   const index = transforms.map((one) => one.kind).lastIndexOf('translate'), after = transforms[index]?.element, frame = frameBefore(index + 1);
   return units.map((axis, i) => ({
     axis, name: axes[i] as string, frame, angle: 0,
     write: (delta, decimals) => [insertTransform(document, group, after, newTransform(document.text, document.roots, 'rotate', axis, wrapped(delta), decimals))],
   }));
+}
+
+function motionOf({ form, element, seconds }: Transform): Motion[] {
+  if (form === 'still') return [];
+  const names = spellings(form === 'spin' ? 'rotate' : 'translate', 'time');
+  return [{ kind: form === 'spin' ? 'turn' : 'lap', element, seconds, write: (next, decimals) => setNumberAt(element, names, next, decimals) }];
 }
 
 const isDirectional = (light: XmlElement): boolean => /^(dir|sun)/i.test(attributeOf(light, spellings('light', 'type'))?.value.trim() ?? '');
@@ -167,7 +181,7 @@ export function targetsOf(document: Document, element: XmlElement, timeS: number
   const transforms = transformsOf(element);
   return {
     move: moveTarget(document, element, outer, transforms, timeS), scale: scaleTarget(document, element, outer, transforms, timeS),
-    rings: ringsOf(document, element, outer, transforms, timeS), spins: transforms.some((one) => one.form === 'spin'),
+    rings: ringsOf(document, element, outer, transforms, timeS), motions: transforms.flatMap(motionOf),
   };
 }
 

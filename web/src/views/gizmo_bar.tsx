@@ -1,10 +1,12 @@
 // The tools for what is selected, over the left edge of the image.
 import type { SceneTool, Viewer } from '../scene/viewer.ts';
 import { setSnapping, snapping } from '../gizmo/settings.ts';
-import { msg, t } from '../words.ts';
+import { lineOf } from '../scene/xml.ts';
+import { msg, number, t } from '../words.ts';
 import type { IconName } from './icons.tsx';
 import { targetsNow } from './gizmo.tsx';
 import { Tool } from './ui.tsx';
+import { openPanel } from './viewer_page.tsx';
 
 const tools: readonly (readonly [SceneTool, IconName, string, string])[] = [
   ['select', 'cursor', msg('Select without handles'), '1'], ['move', 'move', msg('Move'), '2'], ['turn', 'turn', msg('Turn'), '3'], ['scale', 'scale', msg('Scale'), '4'],
@@ -18,12 +20,35 @@ export function whyNoHandles(viewer: Viewer): string {
   if (now.isLocked) return t('This part is locked.');
   if (tool === 'move' && !now.targets.move) return t('This light has no place to move; turn its direction.');
   if (tool === 'scale' && !now.targets.scale) return t('A light has no size.');
-  if (tool === 'turn' && now.targets.rings.length === 0) return now.targets.spins ? t('This group turns with time: change its time or axis in the XML.') : t('This light shines in all directions.');
+  if (tool === 'turn' && now.targets.rings.length === 0) return t('This light shines in all directions.');
   return '';
 }
 
+/** What goes on with time: handles leave it as it is, so each has its line. */
+function Motions({ viewer }: { viewer: Viewer }) {
+  const now = targetsNow(viewer);
+  if (!now || now.isLocked) return null;
+  return (
+    <>
+      {now.targets.motions.map(({ kind, seconds, element }) => {
+        const line = lineOf(now.text, element.start), values = { seconds: number(Math.abs(seconds), { maximumFractionDigits: 3 }) };
+        return (
+          <p key={element.start} class="gizmo-note" role="status">
+            {kind === 'turn' ? t('It turns with time, once in {seconds} s. Handles leave that as it is: its time and axis are in the XML,', values)
+              : t('It moves along its curve, once in {seconds} s. Handles move all points together: each point and the time are in the XML,', values)}{' '}
+            <button type="button" class="link" onClick={() => {
+              openPanel('xml');
+              viewer.reveal.value = { line, column: 1 };
+            }}>{t('line {line}', { line })}</button>
+          </p>
+        );
+      })}
+    </>
+  );
+}
+
 export function GizmoBar({ viewer }: { viewer: Viewer }) {
-  const { isOn, steps } = snapping.value, why = ['select', 'measure'].includes(viewer.tool.value) ? '' : whyNoHandles(viewer);
+  const { isOn, steps } = snapping.value, hasHandles = !['select', 'measure'].includes(viewer.tool.value), why = hasHandles ? whyNoHandles(viewer) : '';
   return (
     <>
       <div class="gizmo-bar" role="toolbar" aria-label={t('Handles of what is selected')} aria-orientation="vertical">
@@ -32,7 +57,10 @@ export function GizmoBar({ viewer }: { viewer: Viewer }) {
         ))}
         <Tool icon="magnet" label={t('Snap to steps of {move}, {turn}°, {scale}', { ...steps })} keys="Shift" pressed={isOn} onClick={() => setSnapping({ steps, isOn: !isOn })} />
       </div>
-      {why && <p class="gizmo-note" role="status">{why}</p>}
+      <div class="gizmo-notes">
+        {why && <p class="gizmo-note" role="status">{why}</p>}
+        {hasHandles && <Motions viewer={viewer} />}
+      </div>
     </>
   );
 }

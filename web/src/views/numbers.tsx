@@ -9,8 +9,8 @@ import { editFrom, targetsNow } from './gizmo.tsx';
 const shown = (value: number): string => String(Number(value.toFixed(4)));
 const maxDecimals = 6;
 
-function NumberField({ axis, label, value, step, disabled, onValue }: {
-  axis: string; label: string; value: number; step: number; disabled: boolean; onValue: (value: number) => void;
+function NumberField({ axis, label, value, step, disabled, isNever0 = false, onValue }: {
+  axis: string; label: string; value: number; step: number; disabled: boolean; isNever0?: boolean; onValue: (value: number) => void;
 }) {
   return (
     <label class={`of-${axis}`}>
@@ -18,14 +18,15 @@ function NumberField({ axis, label, value, step, disabled, onValue }: {
       <input type="number" step="any" inputMode="decimal" aria-label={label} value={shown(value)} disabled={disabled}
         onChange={(event) => {
           const next = event.currentTarget.valueAsNumber;
-          if (Number.isFinite(next)) onValue(next);
+          if (Number.isFinite(next) && !(isNever0 && next === 0)) onValue(next);
           else event.currentTarget.value = shown(value);
         }}
         onKeyDown={(event) => {
           const count = { ArrowUp: 1, ArrowDown: -1, PageUp: 10, PageDown: -10 }[event.key];
           if (count === undefined) return;
           event.preventDefault();
-          onValue(Number((value + count * step).toFixed(maxDecimals)));
+          const next = Number((value + count * step).toFixed(maxDecimals));
+          if (!(isNever0 && next === 0)) onValue(next);
         }} />
     </label>
   );
@@ -56,6 +57,15 @@ export function Numbers({ viewer }: { viewer: Viewer }) {
             <NumberField key={index} axis={ring.name || 'n'} step={steps.turn} disabled={isLocked} value={ring.angle ?? 0}
               label={ring.name ? t('Angle about {axis}', { axis: ring.name.toUpperCase() }) : t('Angle about its axis')}
               onValue={(value) => editFrom(viewer, text, ring.write(value - (ring.angle ?? 0), maxDecimals), 'done')} />
+          ))}
+        </fieldset>
+      )}
+      {targets.motions.length > 0 && (
+        <fieldset class="numbers">
+          <legend>{t('Time')}</legend>
+          {targets.motions.map(({ kind, seconds, write }, index) => (
+            <NumberField key={index} axis="s" step={1} disabled={isLocked} isNever0 value={seconds}
+              label={kind === 'turn' ? t('Seconds a turn') : t('Seconds a lap')} onValue={(value) => editFrom(viewer, text, write(value, maxDecimals), 'done')} />
           ))}
         </fieldset>
       )}

@@ -1,1 +1,0 @@
-import{a,b,c}from"./chunk-DCXKXRRG.js";import"./chunk-P7R4OLZA.js";import"./chunk-HHAN3NLB.js";import"./chunk-KVWACPON.js";import"./chunk-RXPDOPUC.js";import"./chunk-ULO32DJH.js";export{a as cameraLightOf,b as turnCameraLight,c as turnLight};

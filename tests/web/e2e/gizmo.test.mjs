@@ -329,5 +329,11 @@ test('two clicks measure a distance in world units, by the key alone without a s
   assert.deepEqual(await axeFindings(view.page), []);
   await view.page.mouse.click(stage.x + 30, stage.y + stage.height - 30);
   await view.page.getByText('There is nothing to measure to at this place.').waitFor({ timeout: 20000 });
+  // A change of the scene ends the measurement.
+  await view.page.getByRole('treeitem', { name: 'Ball' }).first().click();
+  await view.page.getByRole('spinbutton', { name: 'Position Y' }).fill('1');
+  await view.page.keyboard.press('Enter');
+  await note.getByText('Click the first place to measure from.').waitFor();
+  assert.equal(await view.page.locator('.measure circle').count(), 0);
   await view.close();
 });

@@ -132,6 +132,16 @@ test('the document of a place is found in archives, two deep', async () => {
   assert.equal(memberNamed([{ path: 'a/x.xml' }, { path: 'x.xml' }], 'x.xml'), 1);
 });
 
+test('an archive in an archive that cannot be unpacked hides nothing else', async () => {
+  const pack = "import io, sys, zipfile\nout = io.BytesIO()\nz = zipfile.ZipFile(out, 'w')\nz.writestr('old.zip', 'x' * 5000, zipfile.ZIP_BZIP2)\nz.writestr('scene.xml', '<world/>')\nz.close()\nsys.stdout.buffer.write(out.getvalue())";
+  const zip = new Blob([spawnSync('python3', ['-c', pack]).stdout]);
+  assert.equal((await sourceOf(zip, 'a.zip', 'scene.xml')).text, '<world/>');
+  const nested = zipOf({ 'a.zip': Buffer.from(await zipOf({ 'a.xml': 'x'.repeat(3000) }).arrayBuffer()), 'b.zip': Buffer.from(await zipOf({ 'b.xml': 'y' }).arrayBuffer()) });
+  const paths = async (left: number): Promise<string[]> => ((await filesIn(nested, 2, { left })) ?? []).map(({ path }) => path);
+  assert.deepEqual(await paths(1e6), ['a.zip', 'a.zip/a.xml', 'b.zip', 'b.zip/b.xml']);
+  assert.deepEqual(await paths(200), ['a.zip', 'a.zip/a.xml', 'b.zip']);
+});
+
 test('a zip that the page writes is read by others', async () => {
   const zip = new ZipWriter();
   await zip.add('Ana Sá_1/feedback.html', new Blob(['<p>']));

@@ -161,18 +161,29 @@ async function membersHere(archive: Blob): Promise<Member[] | null> {
     .map((entry) => ({ path: entry.path, bytes: entry.bytes, read: (max: number) => readEntry(archive, entry, max) }));
 }
 
+/** Bytes of archives in archives that may still be unpacked. */
+interface Budget {
+  left: number;
+}
+
+async function membersWithin(archive: Member, depth: number, budget: Budget): Promise<Member[] | null> {
+  const bytes = await archive.read(Math.min(maxNestedBytes, budget.left));
+  budget.left -= bytes.length;
+  return membersOf(new Blob([bytes as BlobPart]), depth - 1, budget);
+}
+
 /**
- * The files of a zip, tar or tar.gz, and of archives in it, two deep, below a folder of their name. Null: it is none
- * that a browser can read (7z, rar).
+ * The files of a zip, tar or tar.gz, and of archives in it, two deep, below a folder of their name. An archive in it that is
+ * damaged, or too large, is listed alone. Null: it is none that a browser can read (7z, rar).
  */
-export async function membersOf(archive: Blob, depth = 2): Promise<Member[] | null> {
+export async function membersOf(archive: Blob, depth = 2, budget: Budget = { left: 4 * maxNestedBytes }): Promise<Member[] | null> {
   const members = await membersHere(archive);
   if (!members || depth === 0) return members;
   const all: Member[] = [];
   for (const member of members) {
     all.push(member);
-    if (!isArchiveName(member.path) || member.bytes > maxNestedBytes) continue;
-    const inner = await membersOf(new Blob([(await member.read(maxNestedBytes)) as BlobPart]), depth - 1).catch(() => null);
+    if (!isArchiveName(member.path) || member.bytes > Math.min(maxNestedBytes, budget.left)) continue;
+    const inner = await membersWithin(member, depth, budget).catch(() => null);
     for (const one of inner ?? []) all.push({ ...one, path: `${member.path}/${one.path}` });
   }
   return all;

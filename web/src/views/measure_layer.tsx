@@ -20,9 +20,10 @@ function words(): string {
 
 export function MeasureLayer({ viewer }: { viewer: Viewer }) {
   const { width, height } = useStageSize(viewer), camera = viewer.frame.value?.camera;
+  // The places are those of the scene as it was.
   useEffect(() => () => {
     measured.value = [];
-  }, [viewer]);
+  }, [viewer, viewer.text.value, viewer.clock.time.value]);
   if (!camera) return null;
   const lens = new Lens(camera, width, height), points = measured.value.map(({ point }) => lens.project(point)), [from, to] = points;
   return (

@@ -152,6 +152,15 @@ test('the rubric as a form and as JSON: marks follow while it is written, and wh
   await view.page.reload();
   await rowOf(view, 'ana').waitFor();
   assert.equal(await markOf(view, 'ana'), 40);
+  // Another class with files of these names is not compared with the one that is forgotten.
+  await openRubric(view);
+  view.page.once('dialog', (question) => void question.accept());
+  await view.page.getByRole('button', { name: 'Forget this class' }).click();
+  await choose(view, 'Reference: choose files', [file('reference.xml', references['box.xml'])]);
+  await choose(view, 'Submissions: choose files', [file('ana.xml', references['box.xml'])]);
+  await view.page.getByRole('button', { name: 'Grade', exact: true }).click();
+  await view.page.getByText('1 graded.').waitFor({ timeout: 60000 });
+  assert.equal((await cellsOf(view, 'ana'))[1].trim(), '100');
   await view.close();
 });
 

@@ -40,6 +40,12 @@ test('a gesture is one step, however long it takes, and none where it changes no
   history.endGesture(at('e'));
   assert.deepEqual(['abcd', 'ab', 'a'].map(() => history.undo(at('end'))?.text), ['abcd', 'ab', 'a']);
   assert.ok(!history.canUndo);
+  // Nor does it take what can be redone.
+  history.beginGesture();
+  history.record('dragging', at('a'), 20 * stepGapMs);
+  assert.ok(!history.canRedo);
+  history.endGesture(at('a'));
+  assert.ok(history.canRedo && !history.canUndo);
 });
 
 test('redo goes the same way back, and a new change ends it', () => {

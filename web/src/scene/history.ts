@@ -29,6 +29,7 @@ export class History {
   private future: Moment[] = []; // the next one last
   private last = { kind: '', at: Number.NEGATIVE_INFINITY };
   private gesture: 'none' | 'begun' | 'recorded' = 'none';
+  private futureBefore: Moment[] = []; // the gesture
 
   get canUndo(): boolean {
     return this.past.length > 0;
@@ -53,12 +54,16 @@ export class History {
   beginGesture(): void {
     this.end();
     this.gesture = 'begun';
+    this.futureBefore = this.future;
   }
 
   /** A gesture that changed nothing is no step. */
   endGesture(current: Moment): void {
     const before = this.past[this.past.length - 1];
-    if (this.gesture === 'recorded' && before && before.text === current.text && before.orbit === current.orbit) this.past.pop();
+    if (this.gesture === 'recorded' && before && before.text === current.text && before.orbit === current.orbit) {
+      this.past.pop();
+      this.future = this.futureBefore;
+    }
     this.gesture = 'none';
     this.end();
   }

@@ -14,6 +14,8 @@ import { copy, dropHere, Section } from './ui.tsx';
 
 const modeWords: Record<Mode, string> = { side: msg('Side by side'), slider: msg('Slider'), blink: msg('In turn'), difference: msg('Difference') };
 const textOf = (fault: unknown): string => findingsOf(fault).map((one) => sentence(one)).join(' ');
+/** Not in another tab or window. */
+const opensHere = (event: MouseEvent): boolean => !(event.ctrlKey || event.metaKey || event.shiftKey || event.altKey);
 const isMode = (text: string | null): text is Mode => modes.some((mode) => mode === text);
 
 /** What is chosen for one side: a scene by its name, edits of this browser, or files. */
@@ -113,7 +115,7 @@ function Findings({ pair }: { pair: Pair }) {
           <ol class="findings causes">
             {causes.map((cause, index) => (
               <li key={index} class={cause.seen ? 'error' : 'warning'}>
-                {cause.line && second.page ? <a href={second.page} onClick={() => (nextLine.value = cause.line ?? null)}>{cause.message}</a> : cause.message}
+                {cause.line && second.page ? <a href={second.page} onClick={(event) => (nextLine.value = opensHere(event) ? (cause.line ?? null) : null)}>{cause.message}</a> : cause.message}
                 {!cause.seen && <small>{t('It cannot be seen.')}</small>}
               </li>
             ))}

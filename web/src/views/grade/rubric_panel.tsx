@@ -8,14 +8,12 @@ import type { GradeTables } from '../../grade/tables.ts';
 import { number, plural, t } from '../../words.ts';
 import { Icon } from '../icons.tsx';
 import { saveBlob } from '../save.ts';
-import { baseline, takeBaseline } from './baseline.ts';
+import { baseline, drafts, takeBaseline } from './baseline.ts';
 import { taskAt } from './list_state.ts';
 import { Members } from './schema_form.tsx';
 import { takeSubmissions } from './take.ts';
 
 const mode = signal<'form' | 'json'>('form');
-/** Texts that are not applied, as they have problems, by task. */
-const drafts = signal<Readonly<Record<string, { text: string; check: RubricCheck }>>>({});
 
 function apply(at: number, text: string): void {
   const task = tasks.value[at], all = tables.value;
@@ -35,7 +33,7 @@ function Effect() {
   const text = (value: number): string => number(value, { maximumFractionDigits: 2 });
   return (
     <p class="effect" role="status">
-      {changed === 0 ? t('No mark changes.') : `${plural(changed, '{count} mark changes', '{count} marks change')}: ${t('mean {now}, before {before}', { now: text(mean(known.map(({ points }) => points))), before: text(mean([...before.values()])) })}. `}
+      {changed === 0 ? t('No mark changes.') : `${plural(changed, '{count} mark changes', '{count} marks change')}: ${t('mean {now}, before {before}', { now: text(mean(known.map(({ points }) => points))), before: text(mean(known.map(({ submission }) => before.get(submission.id) ?? 0))) })}. `}
       {staleCount.value > 0 && <span class="bad">{plural(staleCount.value, '{count} must be rendered again.', '{count} must be rendered again.')} </span>}
       {changed > 0 && <button type="button" class="link" onClick={takeBaseline}>{t('Compare with these from now on')}</button>}
     </p>

@@ -6,6 +6,7 @@ import type { NamedFile } from '../../scene/bundle.ts';
 import { plural, t } from '../../words.ts';
 import { Icon } from '../icons.tsx';
 import { Check, dropHere, say, Tool } from '../ui.tsx';
+import { forgetRubricPanel } from './baseline.ts';
 import { dropProblems, reading, takeExample, takeReference, takeSubmissions } from './take.ts';
 
 function Drop({ kind, title, text, take, children }: {
@@ -81,6 +82,7 @@ export function Forget() {
   if (tasks.value.length + submissions.value.length + results.value.size === 0) return null;
   const act = async (): Promise<void> => {
     if (!window.confirm(t('Forget the class: submissions, marks and comments? What was saved as a file stays.'))) return;
+    forgetRubricPanel();
     say((await forget()) ? t('The class is forgotten.') : t('The browser refused to forget: clear the data of this site in its settings.'));
   };
   return <button type="button" class="link" onClick={() => void act()}>{t('Forget this class')}</button>;

@@ -16,7 +16,6 @@ glm::vec3 linearOf(const glm::vec3& display) {
 }
 
 PbrMaterial pbrOf(const PhongColors& colors) {
-    constexpr float kDielectric = 0.04F;  // F0 of an index of refraction of 1.5
     PbrMaterial pbr;
     pbr.emissive = linearOf(colors.base);
     pbr.baseColor = glm::clamp(linearOf(colors.base + colors.diffuse) - pbr.emissive, 0.0F, 1.0F);
@@ -24,10 +23,8 @@ PbrMaterial pbrOf(const PhongColors& colors) {
     if (largest <= 0.0F) return pbr;
     const float alphaSquared = 2.0F / (colors.shininess + 2.0F);
     pbr.roughness = std::sqrt(std::sqrt(alphaSquared));
-    const glm::vec3 reflectance =
-        glm::min(4.0F * alphaSquared * linearOf(colors.specular), glm::vec3(1.0F));
-    pbr.specular = std::max({reflectance.r, reflectance.g, reflectance.b});
-    pbr.specularColor = reflectance / (kDielectric * pbr.specular);
+    pbr.reflectance =
+        glm::min(4.0F * alphaSquared * linearOf(colors.specular), glm::vec3(kMaxReflectance));
     return pbr;
 }
 

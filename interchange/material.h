@@ -12,10 +12,13 @@ struct PbrMaterial {
     glm::vec3 baseColor{1.0F};
     float roughness = 1.0F;  ///< perceptual; alpha = roughness^2
     glm::vec3 emissive{0.0F};
-    /// F0 = min(0.04 * specularColor, 1) * specular, F90 = specular. 0: no highlight.
-    float specular = 0.0F;
-    glm::vec3 specularColor{1.0F};
+    glm::vec3 reflectance{0.0F};  ///< F0, 0..kMaxReflectance; F90 is 1. Black: no highlight
 };
+
+/// F0 of specularColorFactor 1, an index of refraction of 1.5.
+inline constexpr float kUnitReflectance = 0.04F;
+/// Below 1: Blender 3 derives an index of refraction from F0, which F0 = 1 has none for.
+inline constexpr float kMaxReflectance = 0.95F;
 
 /// Illuminance, lux, and luminous intensity at distance 1, cd, of a light of strength 1: the
 /// diffuse part of glTF is baseColor / pi.
@@ -40,7 +43,7 @@ struct PhongColors {
 /// The highlight has the width and the height of Blinn-Phong's, by the distribution of Blinn with
 /// exponent n = 2 / alpha^2 - 2 (Walter et al. 2007, "Microfacet Models for Refraction", section
 /// 5.2): roughness = (2 / (n + 2))^(1/4). Its peak by a light of strength 1 is F0 / (4 alpha^2) in
-/// GGX's form, so F0 = 8 specular / (n + 2); it does not grow at grazing angles (F90 = F0).
+/// GGX's form, so F0 = 8 specular / (n + 2).
 PbrMaterial pbrOf(const PhongColors& colors);
 
 }  // namespace farol::interchange

@@ -39,6 +39,13 @@ std::vector<glm::vec3> linearColors(const std::vector<glm::u8vec4>& colors) {
 
 bool isBlack(const glm::vec3& color) { return color == glm::vec3(0.0F); }
 
+/// Returns the name of a texture's file without folders and extension; "" for none.
+std::string stemOf(const scene::Texture* texture) {
+    if (texture == nullptr) return "";
+    const std::size_t from = texture->file.find_last_of("/\\") + 1;
+    return texture->file.substr(from, texture->file.rfind('.') - from);
+}
+
 }  // namespace
 
 const GltfWriter::Geometry& GltfWriter::geometryOf(const render::MeshData& data,
@@ -74,8 +81,9 @@ std::optional<GltfWriter::Embedded> GltfWriter::addTexture(const scene::Texture&
     if (isNew) {
         const PortableImage image = imageOf(texture, subject_.assets());
         const int view = document_.addView(image.bytes, Target::none);
-        at->second = {document_.addOnce("images", {{"bufferView", view}, {"mimeType", image.mime}}),
-                      image.alpha};
+        json entry{{"bufferView", view}, {"mimeType", image.mime}};
+        if (const std::string name = stemOf(&texture); !name.empty()) entry["name"] = name;
+        at->second = {document_.addOnce("images", std::move(entry)), image.alpha};
     }
     const scene::Filter filter = subject_.options().filter.value_or(ref.filter);
     json sampler{{"magFilter", filter == scene::Filter::nearest ? kNearest : kLinear},
@@ -91,7 +99,8 @@ std::optional<GltfWriter::Embedded> GltfWriter::addTexture(const scene::Texture&
 
 int GltfWriter::addMaterial(const Look& look, bool hasLines) {
     json material = json::object();
-    if (!look.name.empty()) material["name"] = look.name;
+    const std::string name = look.name.empty() ? stemOf(look.texture) : look.name;
+    if (!name.empty()) material["name"] = name;
     if (look.isTwoSided) material["doubleSided"] = true;
     json pbr{{"metallicFactor", 0}};
     std::optional<int> texture;
@@ -125,9 +134,9 @@ int GltfWriter::addMaterial(const Look& look, bool hasLines) {
         }
         document_.use("KHR_materials_specular");
         json& specular = material["extensions"]["KHR_materials_specular"];
-        specular = {{"specularFactor", nearest.specular}};
-        if (nearest.specular > 0.0F)
-            specular["specularColorFactor"] = toJson(nearest.specularColor);
+        // The colour alone says how much is reflected: Blender 3 does not read the factor.
+        specular = {{"specularColorFactor", toJson(nearest.reflectance / kUnitReflectance)}};
+        if (isBlack(nearest.reflectance)) specular["specularFactor"] = 0;
     }
     material["pbrMetallicRoughness"] = std::move(pbr);
     return document_.addOnce("materials", material);

@@ -180,7 +180,7 @@ TEST_CASE("a material keeps its colours in the dark and in full light") {
         CHECK(display(lit) ==
               Approx(std::min(1.0, double{colors.base[k] + colors.diffuse[k]})).margin(1e-5));
     }
-    CHECK(pbr.specular == 0.0F);
+    CHECK(pbr.reflectance == glm::vec3(0.0F));
     CHECK(pbr.roughness == 1.0F);
 }
 
@@ -193,13 +193,31 @@ TEST_CASE("a highlight has the height of Blinn-Phong's at its middle") {
         const double alpha = std::pow(double{pbr.roughness}, 2.0);
         CHECK(2.0 / (alpha * alpha) - 2.0 == Approx(double{shininess}).epsilon(1e-4));
         for (int k = 0; k < 3; ++k) {
-            const double f0 =
-                std::min(0.04 * double{pbr.specularColor[k]}, 1.0) * double{pbr.specular};
+            const double f0 = double{pbr.reflectance[k]};
             // D V F at normal incidence, V = 1/4; times the light's pi lux.
             const double peak = f0 / (3.14159265 * alpha * alpha) / 4.0 * kUnitLight;
             CHECK(peak == Approx(double{linearOf(colors.specular[k])}).epsilon(1e-3).margin(1e-6));
         }
     }
+}
+
+// Blender 3 reads specularColorFactor and not specularFactor, and has no F0 of 1.
+TEST_CASE("the colour of a highlight has its strength") {
+    const test::GltfFile file(glb(std::string("<world>") + kLit + R"(<group><models>
+      <model file="box_1.3d"><color><specular R="255" G="255" B="255"/><shininess value="30"/></color></model>
+      <model file="box_1.3d"><color><specular R="0" G="0" B="0"/><shininess value="30"/></color></model>
+      <model file="box_1.3d"><color><specular R="255" G="255" B="255"/><shininess value="0"/></color></model>
+      </models></group></world>)")
+                                  .bytes);
+    REQUIRE(file.json["materials"].size() == 3);
+    const auto specularOf = [&](std::size_t k) {
+        return file.json["materials"][k]["extensions"]["KHR_materials_specular"];
+    };
+    CHECK(specularOf(0).value("specularFactor", 1.0) == 1.0);
+    CHECK(0.04 * specularOf(0)["specularColorFactor"][1].get<double>() == Approx(8.0 / 32.0));
+    CHECK(specularOf(1)["specularFactor"] == 0);
+    CHECK(specularOf(1)["specularColorFactor"] == json::array({0.0, 0.0, 0.0}));
+    CHECK(0.04 * specularOf(2)["specularColorFactor"][1].get<double>() < 0.96);
 }
 
 TEST_CASE("lights are punctual lights, facing their way") {
@@ -266,6 +284,22 @@ TEST_CASE("texture coordinates run from the top, and the seam of a projection is
         }
         CHECK(high - low <= 0.5F);
     }
+}
+
+TEST_CASE("images and materials have the names of their textures") {
+    const std::string pixel = "P6 1 1 255\n\x80\x40\x20";
+    const test::GltfFile file(writeGlb(jobOf(std::string("<world>") + kLit + R"(<group><models>
+      <model file="box_1.3d"><texture file="wood/old.oak.ppm"/></model>
+      <model file="box_1.3d"><texture file="wood/old.oak.ppm"/></model>
+      <model file="box_1.3d"/></models></group></world>)",
+                                             {{"wood/old.oak.ppm", pixel}}),
+                                       kMaxModelBytes)
+                                  .bytes);
+    REQUIRE(file.json["images"].size() == 1);
+    CHECK(file.json["images"][0].value("name", "") == "old.oak");
+    REQUIRE(file.json["materials"].size() == 2);
+    CHECK(file.json["materials"][0].value("name", "") == "old.oak");
+    CHECK_FALSE(file.json["materials"][1].contains("name"));
 }
 
 TEST_CASE("models over their bounds are refused") {

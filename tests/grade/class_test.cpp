@@ -105,10 +105,13 @@ TEST_CASE("a class has the marks that a fair teacher gives") {
                 text << one.message.text << " (-" << one.points << ")";
                 mark.causes.push_back(text.str());
             }
-            if (grade.penalty > 0.0)
-                mark.causes.push_back("penalty -" + std::to_string(grade.penalty));
-            if (grade.unexplained > 0.0)
-                mark.causes.push_back("unexplained -" + std::to_string(grade.unexplained));
+            const auto addLoss = [&](const char* name, double points) {
+                std::ostringstream text;
+                text << name << " -" << points;
+                if (points > 0.0) mark.causes.push_back(text.str());
+            };
+            addLoss("penalty", grade.penalty);
+            addLoss("unexplained", grade.unexplained);
         } catch (const Error& error) {
             mark.causes.push_back(error.what());
         }

@@ -149,6 +149,19 @@ export const deleteScene = async (id: string): Promise<void> => void (await requ
 export const validate = (body: RequestInit, base: string | null): Promise<SceneFacts & Partial<ModelPlaces>> =>
   json(`v1/validate?${query(base === null ? { models: 1 } : { models: 1, base })}`, { method: 'POST', ...body });
 
+/** Of a service that lists none: what each can write. */
+const usualAnimations: readonly string[] = ['apng', 'gif', 'animated-webp'];
+let animations: Promise<readonly string[]> | undefined;
+
+/** The formats of animations that this service can write. */
+export function animationFormats(): Promise<readonly string[]> {
+  animations ??= json<{ animations?: string[] }>('version').then((version) => version.animations ?? usualAnimations, () => {
+    animations = undefined; // asked again the next time
+    return usualAnimations;
+  });
+  return animations;
+}
+
 const asSentence = (text: string): string => {
   const ended = /[.?!]\s*$/.test(text) ? text.trimEnd() : `${text.trimEnd()}.`;
   return ended.charAt(0).toUpperCase() + ended.slice(1);

@@ -141,7 +141,7 @@ test('Firefox: the editor draws what is typed, and undo takes it back', { skip }
   await settled(view);
   const edited = await colours(page);
   assert.ok(edited.includes('32,64,96,255'), [...new Set(edited)].join(' '));
-  for (let i = 0; i < 40 && !(await page.$eval('.toolbar .tool', (undo) => undo.disabled)); ++i) await page.click('.toolbar .tool');
+  for (let i = 0; i < 40 && !(await page.$eval('.toolbar .tool', (undo) => undo.ariaDisabled === 'true')); ++i) await page.click('.toolbar .tool');
   await settled(view);
   assert.deepEqual(await colours(page), first);
   await close();

@@ -29,8 +29,8 @@ const closing = (close) => {
 };
 
 /** A daemon of its own; `stop` ends it. */
-export async function startServer({ scenes = join(root, 'scenes'), args = [], workers = 2 } = {}) {
-  const child = spawn(binary, ['serve', '--port', '0', '--scenes', scenes, '--workers', String(workers), '--wait', '30', '--deadline', '60', ...args], { stdio: ['ignore', 'pipe', 'pipe'] });
+export async function startServer({ program = binary, scenes = join(root, 'scenes'), args = [], workers = 2 } = {}) {
+  const child = spawn(program, ['serve', '--port', '0', '--scenes', scenes, '--workers', String(workers), '--wait', '30', '--deadline', '60', ...args], { stdio: ['ignore', 'pipe', 'pipe'] });
   const ended = new Promise((done) => child.on('exit', done));
   const stop = closing(() => (child.kill('SIGTERM'), ended));
   let out = '';

@@ -8,7 +8,7 @@ import {
 } from '@codemirror/language';
 import { lintGutter, lintKeymap, setDiagnostics, type Diagnostic } from '@codemirror/lint';
 import { highlightSelectionMatches, searchKeymap } from '@codemirror/search';
-import { EditorSelection, EditorState } from '@codemirror/state';
+import { EditorSelection, EditorState, Prec } from '@codemirror/state';
 import {
   drawSelection, EditorView, highlightActiveLine, highlightActiveLineGutter, highlightSpecialChars, keymap, lineNumbers,
 } from '@codemirror/view';
@@ -18,7 +18,10 @@ import tables from 'document:schema';
 import { schemaOf } from '../../derive/schema.ts';
 import { sentence, type Finding } from '../api.ts';
 import { cureOf, setCatalogue } from '../cures.ts';
+import { t } from '../words.ts';
 import { changeBetween, indexOfColumn, wordLength } from './places.ts';
+
+const tabLeavesMs = 5000;
 
 const theme = EditorView.theme({
   '&': { height: '100%', color: 'var(--ink)', backgroundColor: 'transparent', fontSize: '.84rem' },
@@ -81,11 +84,13 @@ export function createEditor(host: HTMLElement, text: string, changed: (text: st
     state: EditorState.create({
       doc: text,
       extensions: [
+        // Whatever else it does, Escape lets the next Tab leave: before the completion, which takes it.
+        Prec.highest(keymap.of([{ key: 'Escape', run: (editor) => (editor.setTabFocusMode(tabLeavesMs), false) }])),
         lineNumbers(), foldGutter(), lintGutter(), highlightSpecialChars(), drawSelection(), indentOnInput(), bracketMatching(),
         closeBrackets(), autocompletion({ icons: false }), highlightActiveLine(), highlightActiveLineGutter(), highlightSelectionMatches(),
         indentUnit.of('    '), EditorState.tabSize.of(4), EditorView.lineWrapping,
         syntaxHighlighting(colors), syntaxHighlighting(defaultHighlightStyle, { fallback: true }), language, theme,
-        EditorView.contentAttributes.of({ 'aria-label': 'XML of the scene', spellcheck: 'false', tabindex: '0' }),
+        EditorView.contentAttributes.of({ 'aria-label': t('XML of the scene. Tab indents; Escape, then Tab, goes on.'), spellcheck: 'false', tabindex: '0' }),
         keymap.of([...closeBracketsKeymap, ...defaultKeymap, ...searchKeymap, ...foldKeymap, ...completionKeymap, ...lintKeymap, indentWithTab]),
         EditorView.updateListener.of((update) => {
           if (update.docChanged && !outside) changed(update.state.doc.toString());

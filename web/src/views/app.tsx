@@ -4,6 +4,7 @@ import { place } from '../router.ts';
 import { dark, toggleTheme } from '../theme.ts';
 import { dropping, local, openDropped, takesParts, uploading, uploadProblem } from '../upload.ts';
 import { filesOf } from '../files.ts';
+import { keepFocus, spoken } from './focus.ts';
 import { lazyView } from './lazy.tsx';
 import { Gallery } from './gallery.tsx';
 import { GonePage } from './gone.tsx';
@@ -92,6 +93,7 @@ const EmbedPage = lazyView(() => import('./embed_page.tsx').then((module) => mod
 
 export function App() {
   useDrops();
+  useEffect(keepFocus, []);
   const where = place.value;
   const id = where.page === 'scene' ? where.id : null;
   if (isEmbedded) return where.page === 'scene' ? <EmbedPage key={where.id} id={where.id} view={where.view} /> : <GonePage />;
@@ -113,6 +115,7 @@ export function App() {
       <UploadNote />
       <TokenDialog />
       <Toast />
+      <div class="hidden" id="spoken" role="status">{spoken.value}</div>
     </>
   );
 }

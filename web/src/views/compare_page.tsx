@@ -10,7 +10,7 @@ import type { NamedFile } from '../scene/bundle.ts';
 import { msg, t } from '../words.ts';
 import { CompareStage } from './compare_stage.tsx';
 import { Icon } from './icons.tsx';
-import { copy, dropHere, Section } from './ui.tsx';
+import { copy, dropHere, pressable, Section } from './ui.tsx';
 
 const modeWords: Record<Mode, string> = { side: msg('Side by side'), slider: msg('Slider'), blink: msg('In turn'), difference: msg('Difference') };
 const textOf = (fault: unknown): string => findingsOf(fault).map((one) => sentence(one)).join(' ');
@@ -103,7 +103,7 @@ function Findings({ pair }: { pair: Pair }) {
   };
   return (
     <Section title={t('Findings')}>
-      <button type="button" class="button" disabled={!isReady || busy} onClick={() => void find()}>{busy ? t('Comparing…') : t('Compare what is on show')}</button>
+      <button type="button" class="button" {...pressable(isReady && !busy, () => void find())}>{busy ? t('Comparing…') : t('Compare what is on show')}</button>
       <div role="status" class="compare-words">
         {problem && <p class="problem">{problem}</p>}
         {lines.map((line) => <p key={line}>{line}</p>)}

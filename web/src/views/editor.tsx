@@ -7,7 +7,7 @@ import type { Viewer } from '../scene/viewer.ts';
 import { storeEdited } from '../scene/store_edited.ts';
 import { entryAround, entryAt, kindOf } from '../scene/tree.ts';
 import { parseXml } from '../scene/xml.ts';
-import { Tool } from './ui.tsx';
+import { pressable, Tool } from './ui.tsx';
 import { compareAddress } from '../router.ts';
 import { panel } from './viewer_page.tsx';
 import { saveBlob } from './save.ts';
@@ -78,7 +78,7 @@ export function Editor({ viewer }: { viewer: Viewer }) {
         {viewer.edited.value && <button type="button" class="link" onClick={() => viewer.discardEdits()}>{t('Discard')}</button>}
         <Tool icon="help" shows="beside" label={t('Reference')} hint={t('The scene language: the element at the cursor')} pressed={hasReference} onClick={toggleReference} />
         <Tool icon="download" label={t('Download the XML')} onClick={save} />
-        <button type="button" class="button small" disabled={storing || !ready} onClick={() => void store()}>
+        <button type="button" class="button small" {...pressable(!storing && ready, () => void store())}>
           {storing ? t('Storing…') : t('Store and share')}
         </button>
       </div>

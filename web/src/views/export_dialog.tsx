@@ -25,6 +25,12 @@ export function ExportDialog({ viewer, close }: { viewer: Viewer; close: () => v
     dialog.current?.showModal();
     return () => running.current?.abort();
   }, []);
+  const isRunning = done !== null, wasRunning = useRef(false);
+  // The button that was pressed is gone.
+  useEffect(() => {
+    if (isRunning !== wasRunning.current) dialog.current?.querySelector<HTMLElement>(isRunning ? '.share-row .button' : '.button.primary')?.focus();
+    wasRunning.current = isRunning;
+  }, [isRunning]);
   const stage = viewer.canvas?.size() ?? { width: 4, height: 3 };
   const height = Math.max(1, Math.round((width * stage.height) / stage.width));
   const plan: AnimationPlan = { format, width, height, fps, from: clock.from.value, seconds: clock.lap.value, speed: clock.speed.value };
@@ -44,7 +50,7 @@ export function ExportDialog({ viewer, close }: { viewer: Viewer; close: () => v
       saveBlob(file, `${(viewer.id ?? 'scene').replaceAll('/', '-').slice(0, 60)}.${format === 'apng' ? 'png' : 'webp'}`);
       say(t('Saved, {size} MB.', { size: number(file.size / 1e6, { maximumFractionDigits: 1 }) }));
       running.current = null;
-      close();
+      dialog.current?.close();
     } catch (fault) {
       if (control.signal.aborted) return;
       stop();
@@ -57,7 +63,7 @@ export function ExportDialog({ viewer, close }: { viewer: Viewer; close: () => v
       close();
     }}>
       <h2 id="export-title">{t('Export the animation')}</h2>
-      {done === null ? (
+      {!isRunning ? (
         <>
           <Choice label={t('Format')} value={format} choices={formats.map(([key, text]) => [key, t(text)] as const)} onChange={(value) => setFormat(value === 'webp' ? 'webp' : 'apng')} />
           <Choice label={t('Frames a second')} value={String(fps)} choices={rates.map((rate) => [String(rate), String(rate)] as const)} onChange={(value) => setFps(Number(value))} />
@@ -71,7 +77,7 @@ export function ExportDialog({ viewer, close }: { viewer: Viewer; close: () => v
           {problem && <p class="problem" role="alert">{problem}</p>}
           <div class="share-row">
             <button type="button" class="button primary" disabled={isTooLong} onClick={() => void start()}><Icon name="download" />{t('Export')}</button>
-            <button type="button" class="button" onClick={close}>{t('Close')}</button>
+            <button type="button" class="button" onClick={() => dialog.current?.close()}>{t('Close')}</button>
           </div>
         </>
       ) : (

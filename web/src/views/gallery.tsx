@@ -6,6 +6,7 @@ import { scenePlace, searchWords as words } from '../router.ts';
 import { thumbnail } from '../thumbnails.ts';
 import { pickFiles } from '../upload.ts';
 import { Icon } from './icons.tsx';
+import { pressable } from './ui.tsx';
 import { language, plural, t } from '../words.ts';
 
 interface Listing {
@@ -127,12 +128,13 @@ export function Gallery() {
           : !problem.value && Array.from({ length: 8 }, (_, i) => <li key={i} class="card ghost" aria-hidden="true"><div class="frame" /><div class="words" /></li>)}
       </ul>
       <p class="note" role="status">
+        {shown?.words && shown.scenes.length > 0 && <span class="hidden">{plural(shown.total, '{count} scene', '{count} scenes')}</span>}
         {shown && shown.scenes.length === 0 && (shown.words
           ? t('No scene matches “{words}”.', { words: shown.words })
           : t('This server has no scenes. Start it with --scenes FOLDER, or drop one of your own here.'))}
       </p>
       {shown && shown.page < shown.pages && (
-        <button type="button" class="button more" disabled={loading.value} onClick={() => void load(shown.page + 1)}>
+        <button type="button" class="button more" {...pressable(!loading.value, () => void load(shown.page + 1))}>
           {t('More scenes ({count} of {total})', { count: shown.scenes.length, total: shown.total })}
         </button>
       )}

@@ -3,6 +3,7 @@ import { signal } from '@preact/signals';
 import { useEffect, useLayoutEffect, useRef, useState } from 'preact/hooks';
 import { helpKeys, tourSteps } from './help.ts';
 import { helpShown } from './sharing.ts';
+import { focusStage } from './stage.tsx';
 import { Tool } from './ui.tsx';
 import { t } from '../words.ts';
 
@@ -24,7 +25,10 @@ function Tour() {
     box.current?.querySelector<HTMLElement>('.primary')?.focus();
     return () => document.querySelector(selector)?.removeAttribute('data-tour');
   }, [at]);
-  const end = (): void => void (step.value = null);
+  const end = (): void => {
+    step.value = null;
+    focusStage();
+  };
   return (
     <div class="tour" ref={box} role="dialog" aria-labelledby="tour-title" aria-describedby="tour-text" style={{ left: `${place.left}px`, top: `${place.top}px` }}
       onKeyDown={(event) => event.key === 'Escape' && end()}>
@@ -49,10 +53,10 @@ function Keys() {
       <div class="help-head">
         <h2 id="help-title">{t('Keys')}</h2>
         <button type="button" class="button small" onClick={() => {
-          close();
+          dialog.current?.close();
           step.value = 0;
         }}>{t('Short tour')}</button>
-        <Tool icon="close" label={t('Close')} onClick={close} />
+        <Tool icon="close" label={t('Close')} onClick={() => dialog.current?.close()} />
       </div>
       <dl>
         {helpKeys.map(([keys, text]) => (

@@ -8,7 +8,7 @@ import type { Viewer } from '../scene/viewer.ts';
 import { Icon } from './icons.tsx';
 import { saveBlob } from './save.ts';
 import { sharing } from './sharing.ts';
-import { Choice, copy, say } from './ui.tsx';
+import { Choice, copy, pressable, say, useAnimationFormats } from './ui.tsx';
 import { language, msg, t } from '../words.ts';
 
 const here = (): string => location.href.replace(/#.*$/, '');
@@ -27,19 +27,22 @@ function Line({ label, text, done }: { label: string; text: string; done: string
   );
 }
 
-const formats = [['apng', msg('animated PNG')], ['gif', msg('GIF')], ['animated-webp', msg('animated WebP')]] as const;
+const formats: readonly { name: string; label: string; ending: string }[] = [
+  { name: 'apng', label: msg('animated PNG'), ending: 'png' }, { name: 'gif', label: msg('GIF'), ending: 'gif' },
+  { name: 'animated-webp', label: msg('animated WebP'), ending: 'webp' }, { name: 'mp4', label: 'MP4', ending: 'mp4' }, { name: 'webm', label: 'WebM', ending: 'webm' },
+];
 
 function Animation({ viewer }: { viewer: Viewer }) {
-  const [format, setFormat] = useState<string>('apng');
+  const [format, setFormat] = useState('apng'), names = useAnimationFormats();
   const turntable = viewer.facts.value?.links.turntable;
   if (!turntable || viewer.edited.value) return null;
-  const ending = format === 'apng' ? 'png' : format === 'gif' ? 'gif' : 'webp';
+  const known = formats.filter(({ name }) => names.includes(name)), ending = known.find(({ name }) => name === format)?.ending ?? 'png';
   return (
     <section class="section">
       <h3>{t('Animation')}</h3>
       <p class="note">{t('A round trip about the scene from this view, 48 frames of 480 × 360.')}</p>
       <div class="share-row">
-        <Choice label={t('Format')} value={format} choices={formats.map(([key, name]) => [key, t(name)] as const)} onChange={setFormat} />
+        <Choice label={t('Format')} value={format} choices={known.map(({ name, label }) => [name, t(label)] as const)} onChange={setFormat} />
         <a class="button" href={`${turntable}?${query({ ...viewer.turntableOptions(), frames: 48, fps: 16, format })}`}
           download={`${(viewer.id ?? 'scene').replaceAll('/', '-')}-turntable.${ending}`}><Icon name="download" />{t('Download')}</a>
       </div>
@@ -59,7 +62,7 @@ function Unstored({ viewer }: { viewer: Viewer }) {
     <div class="share-warning" role="note">
       <p>{viewer.id === null ? t('This scene is in this browser only: there is no link to it yet.')
         : t('Your edits are in this browser only. Links and frames show the scene as it is stored, without them.')}</p>
-      <button type="button" class="button primary" disabled={busy} onClick={() => void store()}>{busy ? t('Storing…') : t('Store them and get a link')}</button>
+      <button type="button" class="button primary" {...pressable(!busy, () => void store())}>{busy ? t('Storing…') : t('Store them and get a link')}</button>
     </div>
   );
 }
@@ -116,7 +119,7 @@ export function ShareDialog({ viewer }: { viewer: Viewer }) {
         <Line label="curl" text={curlOf(viewer)} done={t('Command copied.')} />
         {viewer.edited.value && <p class="note">{t('It sends scene.xml from the folder it is run in: download the XML first.')}</p>}
       </section>
-      <button type="button" class="button" onClick={() => (sharing.value = false)}>{t('Close')}</button>
+      <button type="button" class="button" onClick={() => dialog.current?.close()}>{t('Close')}</button>
     </dialog>
   );
 }

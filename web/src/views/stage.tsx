@@ -2,8 +2,10 @@
 import { useEffect, useRef } from 'preact/hooks';
 import { listen, type Actions } from '../input.ts';
 import type { Viewer } from '../scene/viewer.ts';
+import { announce } from './focus.ts';
 import { HudView } from './hud.tsx';
 import { lazyView } from './lazy.tsx';
+import { viewWords } from './steps.ts';
 import { t } from '../words.ts';
 
 const LightNote = lazyView(() => import('./light_note.tsx').then((module) => module.LightNote));
@@ -39,9 +41,15 @@ export function Stage({ viewer, actions, preview }: { viewer: Viewer; actions: A
       viewer.canvas = null;
     };
   }, [viewer]);
+  // Who moves by keys may not see where to.
+  const byKeys = useRef(false);
+  useEffect(() => {
+    if (byKeys.current) announce(viewWords(viewer));
+    byKeys.current = false;
+  }, [viewer.still.value]);
   const title = viewer.facts.value?.title || t('Your scene');
   return (
-    <div class="stage" ref={stage} tabIndex={0} role="application" aria-label={t('{title}. Drag or arrow keys orbit, right drag or two fingers pan, wheel or plus and minus zoom, W A S D move the focus, R resets, Space plays', { title })} aria-busy={viewer.state.value === 'loading'}>
+    <div class="stage" ref={stage} tabIndex={0} role="application" onKeyDown={(event) => (byKeys.current ||= event.target === stage.current && event.key !== 'Tab')} aria-label={t('{title}. Drag or arrow keys orbit, right drag or two fingers pan, wheel or plus and minus zoom, W A S D move the focus, R resets, Space plays', { title })} aria-busy={viewer.state.value === 'loading'}>
       <canvas ref={canvas} role="img" aria-label={t('Image of {title}', { title })} class={viewer.pictured.value ? '' : 'blank'} width={16} height={9} />
       {preview && !viewer.pictured.value && <img class="preview" alt="" src={preview} onError={(event) => event.currentTarget.remove()} />}
       <HudView viewer={viewer} />

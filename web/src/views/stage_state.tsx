@@ -1,12 +1,12 @@
 // What lies over the picture to say how it stands with the scene: each state of its own look.
 import { signal } from '@preact/signals';
-import { useEffect } from 'preact/hooks';
+import { useEffect, useRef } from 'preact/hooks';
 import { findingsOf, sentence, type Finding } from '../api.ts';
-import { countFindings } from '../scene/state.ts';
+import { countFindings, type SceneState } from '../scene/state.ts';
 import type { Viewer } from '../scene/viewer.ts';
 import { Icon } from './icons.tsx';
 import { Findings, say, type Repair } from './ui.tsx';
-import { plural, t } from '../words.ts';
+import { msg, plural, t } from '../words.ts';
 
 const drawerOpen = signal(false);
 
@@ -53,6 +53,20 @@ export function FindingsDrawer({ viewer, onPick }: { viewer: Viewer; onPick: (fi
   );
 }
 
+const stateWords: Partial<Record<SceneState, string>> = {
+  loading: msg('Drawing…'), incomplete: msg('Incomplete: placeholders stand for what has errors.'),
+  offline: msg('The server does not answer. It is asked again every few seconds.'),
+};
+
+/** The same for a screen reader, in a place that stays: what comes with its words already in it is not read out. */
+export function SpokenState({ viewer }: { viewer: Viewer }) {
+  const state = viewer.state.value, stateText = stateWords[state], counts = countsText(viewer.findings.value), hadFindings = useRef(false);
+  hadFindings.current ||= counts !== '';
+  const words = state === 'failed' ? (viewer.pictured.value ? t('This cannot be drawn. The image is of the last version that could be.') : t('This scene cannot be drawn'))
+    : stateText ? t(stateText) : '';
+  return <p class="hidden" role="status">{[words, counts || (hadFindings.current && state === 'drawn' ? t('No errors or warnings.') : '')].filter(Boolean).join(' ')}</p>;
+}
+
 /** Speaks of what is wrong, and what can be done about it. */
 export function StageState({ viewer, onPick }: { viewer: Viewer; onPick: (finding: Finding) => void }) {
   const state = viewer.state.value, pictured = viewer.pictured.value, findings = viewer.findings.value;
@@ -68,13 +82,13 @@ export function StageState({ viewer, onPick }: { viewer: Viewer; onPick: (findin
     );
   if (state === 'failed')
     return (
-      <p class="state-note failed" role="status">
+      <p class="state-note failed">
         <Icon name="error" /><span>{t('This cannot be drawn. The image is of the last version that could be.')}</span>
       </p>
     );
   if (state === 'offline')
     return (
-      <div class={pictured ? 'state-note offline' : 'state-card offline'} role="status">
+      <div class={pictured ? 'state-note offline' : 'state-card offline'}>
         <Icon name="offline" /><span>{t('The server does not answer. It is asked again every few seconds.')}</span>{again}
       </div>
     );
@@ -87,11 +101,11 @@ export function StageState({ viewer, onPick }: { viewer: Viewer; onPick: (findin
     );
   if (state === 'incomplete')
     return (
-      <p class="state-note incomplete" role="status">
+      <p class="state-note incomplete">
         <Icon name="error" /><span>{t('Incomplete: placeholders stand for what has errors.')}</span>
       </p>
     );
-  if (state === 'loading') return <p class="state-note loading" role="status"><span>{t('Drawing…')}</span></p>;
+  if (state === 'loading') return <p class="state-note loading"><span>{t('Drawing…')}</span></p>;
   return null;
 }
 

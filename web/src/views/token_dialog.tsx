@@ -16,7 +16,9 @@ export function TokenDialog() {
     <dialog ref={dialog} class="token" aria-labelledby="token-title" onClose={() => now.answer(null)}>
       <form onSubmit={(event) => {
         event.preventDefault();
-        now.answer(field.current?.value.trim() ?? '');
+        const typed = field.current?.value.trim() ?? '';
+        now.answer(typed);
+        dialog.current?.close();
       }}>
         <h2 id="token-title">{t('This server wants a token')}</h2>
         <p id="token-why">{now.sentence}</p>
@@ -27,7 +29,7 @@ export function TokenDialog() {
         <p class="note">{t('It is kept while this tab is open, and sent to this server alone.')}</p>
         <div class="buttons">
           <button type="submit" class="button primary">{t('Go on')}</button>
-          <button type="button" class="button" onClick={() => now.answer(null)}>{t('Cancel')}</button>
+          <button type="button" class="button" onClick={() => dialog.current?.close()}>{t('Cancel')}</button>
         </div>
       </form>
     </dialog>

@@ -5,6 +5,7 @@ import { openPanel, panel } from './viewer_page.tsx';
 import { saveBlob } from './save.ts';
 import { lazyView } from './lazy.tsx';
 import { hadHelp, sharing, showHelp } from './sharing.ts';
+import { redo, undo } from './steps.ts';
 import { say, Tool } from './ui.tsx';
 import { msg, t } from '../words.ts';
 
@@ -32,8 +33,8 @@ export function Toolbar({ viewer }: { viewer: Viewer }) {
   return (
     <div class="toolbar" role="toolbar" aria-label={t('Scene')}>
       <div class="tools">
-        <Tool icon="undo" label={t('Undo')} shows="below" keys="Ctrl+Z" disabled={!viewer.canUndo.value} onClick={() => viewer.undo()} />
-        <Tool icon="redo" label={t('Redo')} shows="below" keys="Ctrl+Shift+Z" disabled={!viewer.canRedo.value} onClick={() => viewer.redo()} />
+        <Tool icon="undo" label={t('Undo')} shows="below" keys="Ctrl+Z" disabled={!viewer.canUndo.value} onClick={() => undo(viewer)} />
+        <Tool icon="redo" label={t('Redo')} shows="below" keys="Ctrl+Shift+Z" disabled={!viewer.canRedo.value} onClick={() => redo(viewer)} />
         <Tool icon="home" label={t('Reset')} shows="below" hint={t('Back to the scene’s own camera')} keys="R" onClick={() => viewer.reset()} />
         <Tool icon="walk" label={t('Walk')} shows="below" hint={t('Walk through the scene')} keys="M" pressed={viewer.walk.value !== null}
           onClick={() => viewer.toggleWalk()} />
@@ -53,7 +54,7 @@ export function Toolbar({ viewer }: { viewer: Viewer }) {
         <Tool icon="fullscreen" label={t('Full screen')} shows="below" onClick={fullscreen} />
         <Tool icon="eye" label={t('Statistics')} shows="below" hint={t('Times and counts of the image')} pressed={hudShown.value} onClick={() => showHud(!hudShown.value)} />
         <Tool icon="help" label={t('Help')} shows="below" hint={t('Keys and a tour')} keys="?" onClick={showHelp} />
-        <Tool icon="panel" label={t('Panel')} shows="beside" hint={t('Settings, files and source')} pressed={panel.value !== 'none'}
+        <Tool id="panel-tool" icon="panel" label={t('Panel')} shows="beside" hint={t('Settings, files and source')} pressed={panel.value !== 'none'}
           onClick={() => openPanel(panel.value === 'none' ? 'view' : 'none')} />
       </div>
       {hadHelp.value && <Help />}

@@ -1,8 +1,9 @@
 // Small parts that several views share.
 import { signal } from '@preact/signals';
+import { useEffect, useState } from 'preact/hooks';
 import type { ComponentChildren } from 'preact';
 import type { Finding } from '../api.ts';
-import { sentence } from '../api.ts';
+import { animationFormats, sentence } from '../api.ts';
 import { cureOf } from '../cures.ts';
 import { filesOf } from '../files.ts';
 import type { NamedFile } from '../scene/bundle.ts';
@@ -35,6 +36,9 @@ export async function copy(text: string, done: string): Promise<void> {
   }
 }
 
+/** For a button that cannot be pressed just now, and keeps the focus. */
+export const pressable = (isOn: boolean, act: () => void) => ({ onClick: () => isOn && act(), ...(isOn ? {} : { 'aria-disabled': true }) });
+
 interface ToolProps {
   icon: IconName;
   label: string; // its name, which `shows` makes visible: beside the icon, or below it where there is room
@@ -43,12 +47,13 @@ interface ToolProps {
   keys?: string;
   pressed?: boolean;
   disabled?: boolean;
+  id?: string;
   onClick: () => void;
 }
 
-export const Tool = ({ icon, label, shows, hint, keys, pressed, disabled, onClick }: ToolProps) => (
+export const Tool = ({ icon, label, shows, hint, keys, pressed, disabled, id, onClick }: ToolProps) => (
   <button
-    type="button" class={shows === 'beside' ? 'tool worded' : 'tool'} aria-label={label} onClick={onClick} disabled={disabled ?? false}
+    type="button" class={shows === 'beside' ? 'tool worded' : 'tool'} aria-label={label} {...pressable(!disabled, onClick)} {...(id ? { id } : {})}
     title={keys ? `${hint ?? label} (${keys})` : (hint ?? label)} {...(pressed === undefined ? {} : { 'aria-pressed': pressed })}
   >
     <Icon name={icon} />{shows && <span {...(shows === 'below' ? { class: 'short' } : {})}>{label}</span>}
@@ -76,6 +81,17 @@ export const Choice = ({ label, value, choices, onChange }: {
 export const Section = ({ title, children }: { title: string; children: ComponentChildren }) => (
   <section class="section"><h3>{title}</h3>{children}</section>
 );
+
+/** The formats of animations that the service can write; none until it answered. */
+export function useAnimationFormats(): readonly string[] {
+  const [names, setNames] = useState<readonly string[]>([]);
+  useEffect(() => {
+    let isGone = false;
+    void animationFormats().then((all) => isGone || setNames(all));
+    return () => void (isGone = true);
+  }, []);
+  return names;
+}
 
 /** What makes an element a place where files can be dropped. */
 export const dropHere = (take: (files: readonly NamedFile[]) => void) => ({

@@ -12,8 +12,9 @@ import { newScene } from '../scene/template.ts';
 import { recall, remember } from '../storage.ts';
 import { GonePage } from './gone.tsx';
 import { focusStage, Stage } from './stage.tsx';
-import { FindingsDrawer, HiddenNote, Notice, StageState } from './stage_state.tsx';
+import { FindingsDrawer, HiddenNote, Notice, SpokenState, StageState } from './stage_state.tsx';
 import { showHelp } from './sharing.ts';
+import { redo, undo } from './steps.ts';
 import { TimeBar } from './time_bar.tsx';
 import { Toolbar } from './toolbar.tsx';
 import { Tool } from './ui.tsx';
@@ -32,6 +33,14 @@ export function openPanel(name: PanelName): void {
   panel.value = name;
   if (name === 'xml') hadEditor.value = true;
   remember('panel', name);
+}
+
+/** The focus goes back to what opened it; that of a mouse to the image, whose keys are then at hand. */
+function closePanel(): void {
+  const byKeys = document.activeElement?.matches(':focus-visible') ?? false;
+  openPanel('none');
+  if (byKeys) document.getElementById('panel-tool')?.focus();
+  else focusStage();
 }
 
 /** A panel that was open is open again, where there is room for it. */
@@ -62,7 +71,7 @@ function Panel({ viewer }: { viewer: Viewer }) {
             </button>
           ))}
         </div>
-        <Tool icon="close" label={t('Close the panel')} onClick={() => openPanel('none')} />
+        <Tool icon="close" label={t('Close the panel')} onClick={closePanel} />
       </div>
       {tabs.map(([name]) => (
         <div key={name} class="panel-body" id={`panel-${name}`} role="tabpanel" aria-labelledby={`tab-${name}`} hidden={panel.value !== name}>
@@ -109,8 +118,8 @@ export function ViewerPage({ id, view }: { id: string | null; view: URLSearchPar
       const field = event.composedPath()[0] as Element;
       if (field.matches('input:not([type=range], [type=checkbox], [type=color]), textarea, select')) return;
       event.preventDefault();
-      if (isRedo) viewer.redo();
-      else viewer.undo();
+      if (isRedo) redo(viewer);
+      else undo(viewer);
     };
     addEventListener('keydown', historyKeys);
     takesParts.value = (files) => {
@@ -174,6 +183,7 @@ export function ViewerPage({ id, view }: { id: string | null; view: URLSearchPar
           <Stage viewer={viewer} preview={preview} actions={{ pick: (x, y) => void pick(x, y), light: (a, b) => void light(a, b) }} />
           <div class="selection-layer">{(viewer.selected.value !== null || viewer.tool.value === 'measure') && viewer.pictured.value && <SelectionLayer viewer={viewer} />}</div>
           <div class="stage-notes">
+            <SpokenState viewer={viewer} />
             <StageState viewer={viewer} onPick={showFinding} />
             <Notice viewer={viewer} />
             <HiddenNote viewer={viewer} />

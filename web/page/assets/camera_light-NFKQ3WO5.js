@@ -1,1 +1,0 @@
-import{a,b,c}from"./chunk-RS25H3NS.js";import"./chunk-EQ2NRK3Y.js";import"./chunk-FSIRLUTD.js";import"./chunk-OQF5S2MQ.js";import"./chunk-HHAN3NLB.js";import"./chunk-KVWACPON.js";import"./chunk-M4I3ERMV.js";import"./chunk-RXPDOPUC.js";import"./chunk-PXFBW63G.js";export{a as cameraLightOf,b as turnCameraLight,c as turnLight};

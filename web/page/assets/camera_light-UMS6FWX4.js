@@ -1,0 +1,1 @@
+import{a,b,c}from"./chunk-TNDH3DYW.js";import"./chunk-ZSBBOXKK.js";import"./chunk-FSIRLUTD.js";import"./chunk-Z2HDVFV3.js";import"./chunk-HHAN3NLB.js";import"./chunk-KVWACPON.js";import"./chunk-LEWHXLNI.js";import"./chunk-RXPDOPUC.js";import"./chunk-SKAQTLI7.js";export{a as cameraLightOf,b as turnCameraLight,c as turnLight};

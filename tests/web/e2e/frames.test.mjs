@@ -55,7 +55,7 @@ test('when the server fails, a sentence says so and the last picture stays', asy
   await view.page.route(/\/image\?/, (route) => route.abort());
   await view.page.locator('.stage').focus();
   await view.page.keyboard.press('ArrowLeft');
-  await view.page.getByText('The server does not answer').waitFor();
+  await view.page.locator('.state-note').getByText('The server does not answer').waitFor();
   assert.deepEqual(await canvasPixels(view.page), before);
   await view.page.unroute(/\/image\?/);
   await view.page.keyboard.press('ArrowLeft');

@@ -267,6 +267,12 @@ test('beside a turn with time a still one is added and turned; words and a line 
   await settled(view);
   assert.match(await draftOf(view), /<rotate time="12" x="0" y="1" z="0"\/>/);
   assert.match((await notes.allInnerTexts())[0], /once in 12 s/);
+  await view.page.setViewportSize({ width: 360, height: 740 });
+  for (const note of await notes.all()) {
+    const { x, width } = await note.boundingBox();
+    assert.ok(x >= 0 && x + width <= 360, `from ${x}, ${width} wide`);
+  }
+  await view.page.setViewportSize(wide.viewport);
   await notes.first().getByRole('button', { name: 'line 6' }).click();
   await view.page.waitForFunction(() => document.querySelector('.code')?.shadowRoot?.querySelector('.cm-activeLineGutter')?.textContent === '6');
   await view.close();

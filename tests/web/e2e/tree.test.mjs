@@ -183,7 +183,7 @@ test('the tree works by the keyboard alone, as an ARIA tree', async () => {
   const view = await open('torch');
   const tree = view.page.getByRole('tree');
   await view.page.getByRole('tab', { name: 'Tree' }).focus();
-  for (let i = 0; i < 4 && !(await tree.evaluate((one) => one === document.activeElement)); ++i) await view.page.keyboard.press('Tab');
+  for (let i = 0; i < 8 && !(await tree.evaluate((one) => one === document.activeElement)); ++i) await view.page.keyboard.press('Tab');
   assert.ok(await tree.evaluate((one) => one === document.activeElement));
   const press = async (key) => {
     await view.page.keyboard.press(key);

@@ -33,7 +33,7 @@ function Motions({ viewer }: { viewer: Viewer }) {
       {now.targets.motions.map(({ kind, seconds, element }) => {
         const line = lineOf(now.text, element.start), values = { seconds: number(Math.abs(seconds), { maximumFractionDigits: 3 }) };
         return (
-          <p key={element.start} class="gizmo-note" role="status">
+          <p key={element.start} class="gizmo-note">
             {kind === 'turn' ? t('It turns with time, once in {seconds} s. Handles leave that as it is: its time and axis are in the XML,', values)
               : t('It moves along its curve, once in {seconds} s. Handles move all points together: each point and the time are in the XML,', values)}{' '}
             <button type="button" class="link" onClick={() => {
@@ -57,8 +57,8 @@ export function GizmoBar({ viewer }: { viewer: Viewer }) {
         ))}
         <Tool icon="magnet" label={t('Snap to steps of {move}, {turn}°, {scale}', { ...steps })} keys="Shift" pressed={isOn} onClick={() => setSnapping({ steps, isOn: !isOn })} />
       </div>
-      <div class="gizmo-notes">
-        {why && <p class="gizmo-note" role="status">{why}</p>}
+      <div class="gizmo-notes" role="status">
+        {why && <p class="gizmo-note">{why}</p>}
         {hasHandles && <Motions viewer={viewer} />}
       </div>
     </>

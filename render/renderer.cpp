@@ -136,8 +136,7 @@ Diagnostics checkSurroundings(const scene::Scene& scene, const PictureOptions& o
 }  // namespace
 
 struct Renderer::State {
-    explicit State(GlSource from)
-        : source(from) {
+    explicit State(GlSource from) : source(from) {
         gl::setMesaVariables(from);
         library = std::async(std::launch::async, gl::loadLibraries, from);
     }

@@ -48,33 +48,33 @@ Message exchanged(const generator::Argument& first, const generator::Argument& s
 }
 
 /// Explains another form; for shapes by their names and arguments.
-template <typename Tell>
-void tellShape(const Outline::Item& a, const Outline::Item& b, const Tell& tell) {
+template <typename Explain>
+void explainShape(const Outline::Item& a, const Outline::Item& b, const Explain& explain) {
     const scene::ShapeCall &expected = a.model.source.shape, &actual = b.model.source.shape;
     if (expected.entry == nullptr || actual.entry == nullptr)
-        return tell("model.shape", causeMessage<"part.finding/surface">());
+        return explain("model.shape", causeMessage<"part.finding/surface">());
     const Message values = twoValues(generator::textOf(actual), generator::textOf(expected));
     if (expected.entry != actual.entry)
-        return tell("model.shape",
-                    causeMessage<"part.finding/shape">("value"_arg = actual.entry->name,
-                                                       "expected"_arg = expected.entry->name),
-                    values, actual.entry->name + " " + expected.entry->name);
+        return explain("model.shape",
+                       causeMessage<"part.finding/shape">("value"_arg = actual.entry->name,
+                                                          "expected"_arg = expected.entry->name),
+                       values, actual.entry->name + " " + expected.entry->name);
     const std::vector<generator::Argument>& arguments = expected.entry->arguments;
     for (std::size_t k = 0; k + 1 < arguments.size(); ++k) {
         scene::ShapeCall swapped = actual;
         std::swap(swapped.arguments[k], swapped.arguments[k + 1]);
         if (swapped == expected)
-            return tell("model.swapped-arguments",
-                        exchanged(arguments[k], arguments[k + 1], actual.entry->name), values,
-                        std::to_string(k));
+            return explain("model.swapped-arguments",
+                           exchanged(arguments[k], arguments[k + 1], actual.entry->name), values,
+                           std::to_string(k));
     }
     std::vector<std::string> names;
     bool isLarge = false;
     for (std::size_t k = 0; k < arguments.size(); ++k) {
-        const double wanted = expected.arguments[k].value, given = actual.arguments[k].value;
-        if (std::abs(wanted - given) <= 1e-6 * std::abs(wanted)) continue;
+        const double right = expected.arguments[k].value, value = actual.arguments[k].value;
+        if (std::abs(right - value) <= 1e-6 * std::abs(right)) continue;
         names.push_back(lowerCase(arguments[k].name));
-        isLarge = given > wanted;
+        isLarge = value > right;
     }
     const std::string& shape = actual.entry->name;
     const Message finding = names.size() != 1
@@ -84,7 +84,36 @@ void tellShape(const Outline::Item& a, const Outline::Item& b, const Tell& tell)
                                             "argument"_arg = names.front(), "shape"_arg = shape)
                                       : causeMessage<"part.finding/argument-small">(
                                             "argument"_arg = names.front(), "shape"_arg = shape);
-    tell("model.arguments", finding, values, joined(names, " "));
+    explain("model.arguments", finding, values, joined(names, " "));
+}
+
+/// Explains normals, winding and texture coordinates of a mesh of the same form.
+template <typename Explain>
+void explainSurface(const Surface& surface, bool textured, const Explain& explain) {
+    constexpr double kMinShare = 0.85;  // of the corners: seams and poles are their own
+    const bool inward = surface.normalsOpposite > kMinShare,
+               reversed = surface.windingReversed > kMinShare;
+    if (inward && reversed)
+        return explain("model.inside-out", causeMessage<"part.finding/inside-out">());
+    if (reversed) return explain("model.winding", causeMessage<"part.finding/winding">());
+    if (inward)
+        return explain("model.normals-inward", causeMessage<"part.finding/normals-inward">());
+    if (surface.normalsSame < kMinShare && surface.normalsUntransposed > kMinShare)
+        return explain("model.normal-matrix", causeMessage<"part.finding/normal-matrix">());
+    if (surface.normalsSame < kMinShare && surface.normalsOfFaces > kMinShare)
+        return explain("model.flat-normals", causeMessage<"part.finding/flat">());
+    if (surface.normalsSame < kMinShare)
+        return explain("model.normals", causeMessage<"part.finding/normals">());
+    if (!surface.hasUvs || !textured || surface.uvSame > kMinShare) return;
+    if (surface.uvUpsideDown > kMinShare)
+        return explain("texture.upside-down", causeMessage<"part.finding/uv-upside-down">());
+    if (surface.uvMirrored > kMinShare)
+        return explain("texture.mirrored", causeMessage<"part.finding/uv-mirrored">());
+    if (surface.uvBoth > kMinShare)
+        return explain("texture.turned", causeMessage<"part.finding/uv-turned">());
+    if (surface.uvSwapped > kMinShare)
+        return explain("texture.swapped-uv", causeMessage<"part.finding/uv-swapped">());
+    explain("texture.coordinates", causeMessage<"part.finding/texture-coordinates">());
 }
 
 }  // namespace
@@ -94,10 +123,10 @@ MeshDresser::MeshDresser(const SearchContext& context, DressFixes& out)
 
 /// Whether the item's transforms make up for the other size of its mesh.
 bool MeshDresser::standsBy(int i, int j, const Likeness& form) const {
-    const glm::dmat4& wanted =
+    const glm::dmat4& expected =
         context_.theirSide.poses.front()[static_cast<std::size_t>(theirs(i).node)];
     const glm::dmat4& world = poses_[static_cast<std::size_t>(mine(j).node)];
-    return isSamePlace(wanted, world * form.mineFromTheirs, theirs(i).mesh->bounds,
+    return isSamePlace(expected, world * form.mineFromTheirs, theirs(i).mesh->bounds,
                        symmetryOf(theirs(i)), context_.sceneSize);
 }
 
@@ -131,42 +160,19 @@ void MeshDresser::compare(int i, int j) {
         compareDivisions(i, j);
         return;
     }
-    const Surface& surface = form.surface;
-    constexpr double kMinShare = 0.85;  // of the corners: seams and poles are their own
     const glm::dmat4 way = form.isOneForm() && isMadeUpFor ? form.mineFromTheirs : glm::dmat4(1.0);
     const auto apply = [j, a, way](Outline& o) { takeMesh(o, j, a, way); };
-    const auto tell = [&](const char* code, const Message& finding, const Message& values = {},
-                          const std::string& kind = "") {
+    const auto explain = [&](const char* code, const Message& finding, const Message& values = {},
+                             const std::string& kind = "") {
         out_.add(i, j, code, {finding, values}, kind, b.model.where, apply);
     };
-    if (!form.isOneForm()) return tellShape(a, b, tell);
+    if (!form.isOneForm()) return explainShape(a, b, explain);
     if (!isMadeUpFor) {
         if (a.model.source.shape.entry != nullptr && b.model.source.shape.entry != nullptr)
-            return tellShape(a, b, tell);
-        return tell("model.arguments", causeMessage<"part.finding/mesh-size">());
+            return explainShape(a, b, explain);
+        return explain("model.arguments", causeMessage<"part.finding/mesh-size">());
     }
-    const bool inward = surface.normalsOpposite > kMinShare,
-               reversed = surface.windingReversed > kMinShare;
-    if (inward && reversed)
-        return tell("model.inside-out", causeMessage<"part.finding/inside-out">());
-    if (reversed) return tell("model.winding", causeMessage<"part.finding/winding">());
-    if (inward) return tell("model.normals-inward", causeMessage<"part.finding/normals-inward">());
-    if (surface.normalsSame < kMinShare && surface.normalsUntransposed > kMinShare)
-        return tell("model.normal-matrix", causeMessage<"part.finding/normal-matrix">());
-    if (surface.normalsSame < kMinShare && surface.normalsOfFaces > kMinShare)
-        return tell("model.flat-normals", causeMessage<"part.finding/flat">());
-    if (surface.normalsSame < kMinShare)
-        return tell("model.normals", causeMessage<"part.finding/normals">());
-    if (!surface.hasUvs || !textured || surface.uvSame > kMinShare) return;
-    if (surface.uvUpsideDown > kMinShare)
-        return tell("texture.upside-down", causeMessage<"part.finding/uv-upside-down">());
-    if (surface.uvMirrored > kMinShare)
-        return tell("texture.mirrored", causeMessage<"part.finding/uv-mirrored">());
-    if (surface.uvBoth > kMinShare)
-        return tell("texture.turned", causeMessage<"part.finding/uv-turned">());
-    if (surface.uvSwapped > kMinShare)
-        return tell("texture.swapped-uv", causeMessage<"part.finding/uv-swapped">());
-    tell("texture.coordinates", causeMessage<"part.finding/texture-coordinates">());
+    explainSurface(form.surface, textured, explain);
 }
 
 /// The same surface, which a scene's own words divide in another way.

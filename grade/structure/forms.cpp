@@ -148,9 +148,8 @@ bool isSamePlace(const glm::dmat4& theirs, const glm::dmat4& mine, const render:
                alike(across(theirs), across(mine));
     }
     const render::Box box = bounds.empty() ? render::Box{glm::dvec3(-1), glm::dvec3(1)} : bounds;
-    for (int corner = 0; corner < 8; ++corner) {
-        const glm::dvec4 p(corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y,
-                           corner & 4 ? box.max.z : box.min.z, 1.0);
+    for (int i = 0; i < 8; ++i) {
+        const glm::dvec4 p(box.corner(i), 1.0);
         if (glm::length(glm::dvec3(theirs * p - mine * p)) > reach) return false;
     }
     return true;

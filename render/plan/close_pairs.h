@@ -34,8 +34,8 @@ class ClosePairs {
     void put(const ClosePair& pair, bool answer) { answers_.put(pair, answer, 1); }
 
   private:
-    static constexpr std::size_t kMost = 16384;  ///< about 5 MiB
-    LruCache<ClosePair, bool> answers_{kMost};
+    static constexpr std::size_t kMaxPairs = 16384;  ///< about 5 MiB
+    LruCache<ClosePair, bool> answers_{kMaxPairs};
 };
 
 }  // namespace farol::render

@@ -52,10 +52,8 @@ std::optional<PixelRect> pixelRect(const Box& box, const glm::dmat4& viewFromObj
                                    const ViewTransform& view) {
     const glm::dmat4 clipFromObject = view.clip * viewFromObject;
     PixelRect rect{glm::dvec2(1e300), glm::dvec2(-1e300)};
-    for (int corner = 0; corner < 8; ++corner) {
-        const glm::dvec4 p = clipFromObject * glm::dvec4(corner & 1 ? box.max.x : box.min.x,
-                                                         corner & 2 ? box.max.y : box.min.y,
-                                                         corner & 4 ? box.max.z : box.min.z, 1.0);
+    for (int i = 0; i < 8; ++i) {
+        const glm::dvec4 p = clipFromObject * glm::dvec4(box.corner(i), 1.0);
         // Depth is 1 at the near plane: beyond it w is at least z.
         if (!(p.w > 0.0) || p.z > p.w) return std::nullopt;
         const glm::dvec2 px = (glm::dvec2(p) / p.w + 1.0) * 0.5 * glm::dvec2(view.size);
@@ -81,10 +79,8 @@ bool isOutside(const Box& box, const glm::dmat4& viewFromObject, const ViewTrans
     const double marginX = 1.0 + 2.0 * marginPx / view.size.x;
     const double marginY = 1.0 + 2.0 * marginPx / view.size.y;
     unsigned all = 0x3FU;
-    for (int corner = 0; corner < 8 && all; ++corner) {
-        const glm::dvec4 p = clipFromObject * glm::dvec4(corner & 1 ? box.max.x : box.min.x,
-                                                         corner & 2 ? box.max.y : box.min.y,
-                                                         corner & 4 ? box.max.z : box.min.z, 1.0);
+    for (int i = 0; i < 8 && all; ++i) {
+        const glm::dvec4 p = clipFromObject * glm::dvec4(box.corner(i), 1.0);
         const double slack = share * (std::abs(p.x) + std::abs(p.y) + std::abs(p.w));
         const double w = p.w;
         unsigned out = 0;

@@ -159,11 +159,8 @@ class Collector {
     static Box boundsOf(const Box& box, const glm::dmat4& worldFromObject) {
         Box bounds;
         if (box.empty()) return bounds;
-        for (int corner = 0; corner < 8; ++corner)
-            bounds.add(
-                glm::dvec3(worldFromObject * glm::dvec4(corner & 1 ? box.max.x : box.min.x,
-                                                        corner & 2 ? box.max.y : box.min.y,
-                                                        corner & 4 ? box.max.z : box.min.z, 1.0)));
+        for (int i = 0; i < 8; ++i)
+            bounds.add(glm::dvec3(worldFromObject * glm::dvec4(box.corner(i), 1.0)));
         return bounds;
     }
 

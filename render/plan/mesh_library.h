@@ -24,6 +24,10 @@ struct Box {
         min = glm::min(min, point);
         max = glm::max(max, point);
     }
+    /// Corner 0 to 7: bits 0, 1 and 2 choose the greater x, y and z.
+    glm::dvec3 corner(int i) const {
+        return {i & 1 ? max.x : min.x, i & 2 ? max.y : min.y, i & 4 ? max.z : min.z};
+    }
 };
 
 /// The whole triangle that a vertex lies in, where light is worked out at its corners.

@@ -42,10 +42,10 @@ double shadingsOf(int samples) {
 }
 
 void countShadows(const InstanceList& list, FrameLoad& load) {
-    for (const PlacedLight& one : list.lights) {
+    for (const PlacedLight& placed : list.lights) {
         load.shadowLights += 1.0;
         // A point light seldom needs all sides of its cube.
-        load.shadowMaps += one.light->type == scene::LightType::point ? 4.0 : 1.0;
+        load.shadowMaps += placed.light->type == scene::LightType::point ? 4.0 : 1.0;
     }
 }
 

@@ -34,10 +34,10 @@ double SeeThroughSurfaces::deepest() const {
                                                0.5 * (rect.min + rect.max)};
         for (const glm::dvec2& at : places) {
             double over = 0.0;
-            for (const Surface& one : surfaces_)
-                if (at.x >= one.rect.min.x && at.x <= one.rect.max.x && at.y >= one.rect.min.y &&
-                    at.y <= one.rect.max.y)
-                    over += one.count;
+            for (const Surface& surface : surfaces_)
+                if (glm::all(glm::greaterThanEqual(at, surface.rect.min)) &&
+                    glm::all(glm::lessThanEqual(at, surface.rect.max)))
+                    over += surface.count;
             most = std::max(most, over);
         }
     }

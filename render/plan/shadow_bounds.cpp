@@ -188,11 +188,9 @@ std::vector<CastingBox> castingBoxes(const InstanceList& list, bool isTransparen
         boxes[i].isThere = !box.empty() && !instance.mesh->mesh.indices().empty();
         if (!boxes[i].isThere) continue;
         boxes[i].casts = !(isTransparent && isSeenThrough(*instance.model));
-        for (std::size_t corner = 0; corner < 8; ++corner)
-            boxes[i].corners[corner] = glm::dvec3(
-                instance.worldFromObject * glm::dvec4(corner & 1 ? box.max.x : box.min.x,
-                                                      corner & 2 ? box.max.y : box.min.y,
-                                                      corner & 4 ? box.max.z : box.min.z, 1.0));
+        for (int corner = 0; corner < 8; ++corner)
+            boxes[i].corners[static_cast<std::size_t>(corner)] =
+                glm::dvec3(instance.worldFromObject * glm::dvec4(box.corner(corner), 1.0));
     }
     return boxes;
 }

@@ -10,16 +10,16 @@
 namespace farol::render {
 namespace {
 
-/// Most that a mesh errs in its map, texels: less than the filter blurs. And least, of its size.
-constexpr double kErrorTexels = 0.125, kFinest = 1e-4;
+/// Bounds of a mesh's error: texels of its map, less than the filter blurs; share of its size.
+constexpr double kMaxErrorTexels = 0.125, kMinError = 1e-4;
 
 /// Maps with more triangles are planned again, with four times the error.
-constexpr std::int64_t kMostTriangles = 2'000'000;
+constexpr std::int64_t kMaxTriangles = 2'000'000;
 
-double distanceOf(const std::array<glm::dvec3, 8>& corners, const LightView& light) {
+/// Distance from a light to a box in world space, at which a mesh has to be fine; 1 of a
+/// directional light.
+double distanceOf(const Box& box, const LightView& light) {
     if (!light.isPerspective) return 1.0;
-    Box box;
-    for (const glm::dvec3& corner : corners) box.add(corner);
     const glm::dvec3 outside =
         glm::max(glm::max(box.min - light.origin, light.origin - box.max), 0.0);
     // A lamp within a body, or beside it, needs no finer one than its size asks for.
@@ -33,7 +33,7 @@ class CasterMaker {
 
     std::vector<DrawItem> run() {
         for (const std::size_t i : map_.casters) add(source_.list.instances[i]);
-        // Likes in a row are one draw call.
+        // Equal models in a row are one draw call.
         const auto key = [](const DrawItem& item) {
             return std::tuple(item.mesh->id, item.firstIndex, item.mirrored, item.texture);
         };
@@ -101,17 +101,14 @@ class CasterMaker {
         const double largest =
             std::sqrt(glm::dot(linear[0], linear[0]) + glm::dot(linear[1], linear[1]) +
                       glm::dot(linear[2], linear[2]));
-        std::array<glm::dvec3, 8> corners;
         const Box& box = instance.mesh->bounds;
-        for (std::size_t corner = 0; corner < 8; ++corner)
-            corners[corner] = glm::dvec3(instance.worldFromObject *
-                                         glm::dvec4(corner & 1 ? box.max.x : box.min.x,
-                                                    corner & 2 ? box.max.y : box.min.y,
-                                                    corner & 4 ? box.max.z : box.min.z, 1.0));
+        Box world;
+        for (int i = 0; i < 8; ++i)
+            world.add(glm::dvec3(instance.worldFromObject * glm::dvec4(box.corner(i), 1.0)));
         const double error =
-            std::max(kFinest * glm::length(box.max - box.min),
-                     kErrorTexels * source_.coarsening * map_.light.texel *
-                         distanceOf(corners, map_.light) / std::max(1e-300, largest));
+            std::max(kMinError * glm::length(box.max - box.min),
+                     kMaxErrorTexels * source_.coarsening * map_.light.texel *
+                         distanceOf(world, map_.light) / std::max(1e-300, largest));
         generator::Fineness fine{};
         fine.error = std::exp2(std::floor(4.0 * std::log2(std::max(1e-300, error))) / 4.0);
         fine.fullTurn = 8.0;
@@ -181,7 +178,7 @@ void addShadowMaps(FramePlan& plan, const PlannedShadows& shadows, const CasterS
     addCasters(plan, shadows, source);
     CasterSource coarser = source;
     std::int64_t before = 0;  // written divisions stay
-    while (plan.stats.shadowTriangles > kMostTriangles && plan.stats.shadowTriangles != before) {
+    while (plan.stats.shadowTriangles > kMaxTriangles && plan.stats.shadowTriangles != before) {
         before = plan.stats.shadowTriangles;
         coarser.coarsening *= 4.0;
         plan.shadowMaps.clear();

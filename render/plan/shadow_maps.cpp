@@ -17,8 +17,8 @@ constexpr double kTexelsPerPixel = 4.0;  // of the image's longer side
 constexpr int kMinSide = 512, kMaxMapSide = 4096;
 constexpr double kMaxTexels = 16 << 20;  // of all maps: 64 MiB
 constexpr double kMargin = 4.0;          // texels round what casts, for the filter
-/// Spots wider than this, degrees from their axis, have the maps of a point light.
-constexpr double kWidestSpot = 60.0;
+/// Spots of a larger cutoff have the maps of a point light.
+constexpr double kMaxSpotCutoffDeg = 60.0;
 /// Lights farther from the scene's middle than so many of its radii see all of it in one map.
 constexpr double kFar = 1.5;
 /// Lights farther from what is in view than so many of its radii: their rays are parallel within
@@ -136,9 +136,9 @@ class ShadowPlanner {
         const bool isSpot =
             light.type == scene::LightType::spot && length > 0.0 && light.cutoffDeg < 180.0;
         const double distance = glm::length(middle - seen.origin);
-        if ((isSpot && light.cutoffDeg <= kWidestSpot) || distance > kFar * radius_) {
+        if ((isSpot && light.cutoffDeg <= kMaxSpotCutoffDeg) || distance > kFar * radius_) {
             // From afar all of the scene is within a cone, too.
-            const bool isNarrow = isSpot && light.cutoffDeg <= kWidestSpot;
+            const bool isNarrow = isSpot && light.cutoffDeg <= kMaxSpotCutoffDeg;
             seen.rotation = out.rotation =
                 rotationAlong(isNarrow ? along : (middle - seen.origin) / distance);
             const double tangent =

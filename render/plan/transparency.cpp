@@ -46,9 +46,7 @@ std::pair<float, float> depthsOf(const DrawItem& item) {
         return range;
     }
     const Box& box = item.mesh->bounds;
-    for (int corner = 0; corner < 8; ++corner)
-        add(glm::vec3(corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y,
-                      corner & 4 ? box.max.z : box.min.z));
+    for (int i = 0; i < 8; ++i) add(glm::vec3(box.corner(i)));
     return range;
 }
 

@@ -48,10 +48,7 @@ std::string shortText(const glm::dvec3& v) {
 
 std::array<glm::dvec3, 8> cornersOf(const Box& box) {
     std::array<glm::dvec3, 8> corners;
-    for (int i = 0; i < 8; ++i)
-        corners[static_cast<std::size_t>(i)] = {(i & 1) != 0 ? box.max.x : box.min.x,
-                                                (i & 2) != 0 ? box.max.y : box.min.y,
-                                                (i & 4) != 0 ? box.max.z : box.min.z};
+    for (int i = 0; i < 8; ++i) corners[static_cast<std::size_t>(i)] = box.corner(i);
     return corners;
 }
 

@@ -37,13 +37,9 @@ Solids::Solids(const Inventory& inventory, std::vector<double> timesS, std::vect
             worlds.push_back(inventory.matrix(object.node, -1, timeS));
             render::Box& box = boxes.emplace_back();
             const render::Box& local = object.mesh->bounds;
-            for (int corner = 0; corner < 8 && !local.empty(); ++corner) {
-                const glm::dvec3 at(corner & 1 ? local.max.x : local.min.x,
-                                    corner & 2 ? local.max.y : local.min.y,
-                                    corner & 4 ? local.max.z : local.min.z);
-                box.add(
-                    glm::dvec3(worlds.back() * glm::dvec4(object.mesh->mesh.origin() + at, 1.0)));
-            }
+            for (int i = 0; i < 8 && !local.empty(); ++i)
+                box.add(glm::dvec3(worlds.back() *
+                                   glm::dvec4(object.mesh->mesh.origin() + local.corner(i), 1.0)));
         }
     }
 }

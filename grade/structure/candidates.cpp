@@ -128,7 +128,7 @@ CandidateFinder::Matrices CandidateFinder::productOf(const std::vector<Step>& st
 }
 
 bool CandidateFinder::reaches(const Pair& pair, const Matrices& world) const {
-    const render::Box& bounds = theirs_.items[static_cast<std::size_t>(pair.theirs)].mesh->bounds;
+    const render::Box bounds = boundsOf(*theirs_.items[static_cast<std::size_t>(pair.theirs)].mesh);
     for (std::size_t t = 0; t < world.size(); ++t)
         if (!isSamePlace(pair.targets[t], world[t] * pair.mineFromTheirs, bounds, pair.symmetry,
                          size_))

@@ -158,9 +158,10 @@ class ExtraFinder {
             if (one.mesh->id != item.mesh->id) continue;
             bool same = true;
             for (const Poses& poses : side_.poses)
-                same = same && isSamePlace(poses[static_cast<std::size_t>(one.node)],
-                                           poses[static_cast<std::size_t>(item.node)],
-                                           one.mesh->bounds, symmetryOf(one), context_.sceneSize);
+                same =
+                    same && isSamePlace(poses[static_cast<std::size_t>(one.node)],
+                                        poses[static_cast<std::size_t>(item.node)],
+                                        boundsOf(*one.mesh), symmetryOf(one), context_.sceneSize);
             if (same) return true;
         }
         return false;
@@ -287,13 +288,11 @@ ReferenceScene::ReferenceScene(std::shared_ptr<const render::Prepared> given,
     render::Box box;
     const Poses poses = posesOf(outline, 0.0);
     for (const Outline::Item& item : outline.items) {
-        const render::Box& own = item.mesh->bounds;
+        const render::Box own = boundsOf(*item.mesh);
         if (own.empty()) continue;
-        for (int corner = 0; corner < 8; ++corner)
+        for (int i = 0; i < 8; ++i)
             box.add(glm::dvec3(poses[static_cast<std::size_t>(item.node)] *
-                               glm::dvec4(corner & 1 ? own.max.x : own.min.x,
-                                          corner & 2 ? own.max.y : own.min.y,
-                                          corner & 4 ? own.max.z : own.min.z, 1.0)));
+                               glm::dvec4(own.corner(i), 1.0)));
     }
     if (!box.empty()) sceneSize = std::max(1e-9, glm::length(box.max - box.min));
     isLit = !outline.lamps.empty();

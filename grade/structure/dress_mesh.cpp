@@ -126,7 +126,7 @@ bool MeshDresser::standsBy(int i, int j, const Likeness& form) const {
     const glm::dmat4& expected =
         context_.theirSide.poses.front()[static_cast<std::size_t>(theirs(i).node)];
     const glm::dmat4& world = poses_[static_cast<std::size_t>(mine(j).node)];
-    return isSamePlace(expected, world * form.mineFromTheirs, theirs(i).mesh->bounds,
+    return isSamePlace(expected, world * form.mineFromTheirs, boundsOf(*theirs(i).mesh),
                        symmetryOf(theirs(i)), context_.sceneSize);
 }
 
@@ -224,7 +224,7 @@ std::vector<Fix> otherDivisions(const SearchContext& context, const Outline& min
         if (form.mineFromTheirs != glm::dmat4(1.0) &&
             !isSamePlace(context.theirSide.poses.front()[static_cast<std::size_t>(a.node)],
                          poses[static_cast<std::size_t>(b.node)] * form.mineFromTheirs,
-                         a.mesh->bounds, symmetryOf(a), context.sceneSize))
+                         boundsOf(*a.mesh), symmetryOf(a), context.sceneSize))
             continue;
         Fix fix;
         fix.apply = [j, a, way = form.mineFromTheirs](Outline& o) {

@@ -67,7 +67,30 @@ double toleranceFor(const glm::dmat4& m, const render::Box& bounds, double scene
     return std::min(kOfScene * sceneSize + kOfObject * extent, 2e-3 * sceneSize);
 }
 
+/// A matrix between two meshes: of their positions, and of their places, which have the meshes'
+/// origins, too.
+struct Way {
+    glm::dmat4 mineFromTheirs, placesMineFromTheirs;
+};
+
+std::vector<Way> waysBetween(const render::MeshData& theirs, const render::MeshData& mine) {
+    const render::Box &a = theirs.bounds, &b = mine.bounds;
+    const glm::dvec3 &from = theirs.mesh.origin(), &to = mine.mesh.origin(), off = to - from;
+    const glm::dmat4 same(1.0);
+    std::vector<Way> ways;
+    if (boxesAlike(a, {b.min + off, b.max + off}))
+        ways.push_back({glm::translate(same, -off), same});
+    const glm::dmat4 scaled = meshFromUnit(b) * glm::inverse(meshFromUnit(a));
+    ways.push_back({scaled, glm::translate(same, to) * scaled * glm::translate(same, -from)});
+    return ways;
+}
+
 }  // namespace
+
+render::Box boundsOf(const render::MeshData& mesh) {
+    if (mesh.bounds.empty()) return mesh.bounds;
+    return {mesh.mesh.origin() + mesh.bounds.min, mesh.mesh.origin() + mesh.bounds.max};
+}
 
 Symmetry symmetryOf(const Outline::Item& item) {
     const scene::ShapeCall& call = item.model.source.shape;
@@ -109,23 +132,21 @@ Likeness Forms::measure(const Outline::Item& theirs, const Outline::Item& mine) 
         out.surface.uvSame = 1.0;
         return out;
     }
-    const render::Box &a = theirs.mesh->bounds, &b = mine.mesh->bounds;
-    if (a.empty() || b.empty()) return out;
-    std::vector<glm::dmat4> ways;
-    if (boxesAlike(a, b)) ways.emplace_back(1.0);
-    ways.push_back(meshFromUnit(b) * glm::inverse(meshFromUnit(a)));
-    const double size = glm::length(a.max - a.min);
+    const render::Box& bounds = theirs.mesh->bounds;
+    if (bounds.empty() || mine.mesh->bounds.empty()) return out;
+    const std::vector<Way> ways = waysBetween(*theirs.mesh, *mine.mesh);
+    const double size = glm::length(bounds.max - bounds.min);
     const Moments wanted = momentsOf(theirs.mesh->mesh, glm::dmat4(1.0));
-    for (const glm::dmat4& mineFromTheirs : ways) {
-        const glm::dmat4 theirsFromMine = glm::inverse(mineFromTheirs);
+    for (const Way& way : ways) {
+        const glm::dmat4 theirsFromMine = glm::inverse(way.mineFromTheirs);
         if (!momentsAlike(wanted, momentsOf(mine.mesh->mesh, theirsFromMine), size)) continue;
         const Surface surface =
             compareSurfaces(reference_.get(theirs), mine.mesh->mesh, theirsFromMine);
         if (surface.common > out.surface.common || !out.surface.isCompared)
-            out = {surface, mineFromTheirs};
+            out = {surface, way.placesMineFromTheirs};
         if (out.isOneForm()) break;
     }
-    if (!out.isOneForm()) out.mineFromTheirs = ways.back();
+    if (!out.isOneForm()) out.mineFromTheirs = ways.back().placesMineFromTheirs;
     return out;
 }
 

@@ -11,7 +11,8 @@ namespace farol::grade {
 /// How two meshes relate in object space, wherever they stand.
 struct Likeness {
     Surface surface;
-    glm::dmat4 mineFromTheirs{1.0};  ///< a sphere of radius 2 is one of radius 1 that is scaled
+    /// Of places: a sphere of radius 2 is one of radius 1 that is scaled.
+    glm::dmat4 mineFromTheirs{1.0};
 
     bool isOneForm() const { return surface.isOnePlace(); }
 };
@@ -44,6 +45,9 @@ class Forms {
     ReferenceMeshes& reference_;
     std::map<std::pair<std::uint64_t, std::uint64_t>, Likeness> known_;
 };
+
+/// Returns the bounds of a mesh with its origin, object space.
+render::Box boundsOf(const render::MeshData& mesh);
 
 /// Returns whether both matrices put an object of these bounds (object space) at the same place: no
 /// corner differs by more than rounding to three digits. `sceneSize` is the extent of the

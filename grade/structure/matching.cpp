@@ -48,7 +48,7 @@ class Matcher {
         if (!form.isOneForm()) return false;
         for (std::size_t t = 0; t < theirs_.poses.size(); ++t)
             if (!isSamePlace(world(theirs_, i, t), world(mine_, j, t) * form.mineFromTheirs,
-                             at(theirs_, i).mesh->bounds, symmetryOf(at(theirs_, i)), size_))
+                             boundsOf(*at(theirs_, i).mesh), symmetryOf(at(theirs_, i)), size_))
                 return false;
         return true;
     }
@@ -172,7 +172,7 @@ class Matcher {
     }
 
     glm::dvec3 middleOf(const Side& side, std::size_t item) const {
-        const render::Box& box = at(side, item).mesh->bounds;
+        const render::Box box = boundsOf(*at(side, item).mesh);
         const glm::dvec3 middle = box.empty() ? glm::dvec3(0.0) : 0.5 * (box.min + box.max);
         return glm::dvec3(world(side, item, 0) * glm::dvec4(middle, 1.0));
     }

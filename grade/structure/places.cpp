@@ -74,7 +74,7 @@ class Search {
             static_cast<std::size_t>(outline.items[static_cast<std::size_t>(pair.mine)].node);
         for (std::size_t t = 0; t < poses.size(); ++t)
             if (!isSamePlace(pair.targets[t], poses[t][node] * pair.mineFromTheirs,
-                             theirs.mesh->bounds, pair.symmetry, context_.sceneSize))
+                             boundsOf(*theirs.mesh), pair.symmetry, context_.sceneSize))
                 return false;
         return true;
     }

@@ -250,6 +250,7 @@ struct Scene {
     glm::vec3 globalAmbient{1.0F};
     std::vector<Group> groups;
     RenderSettings settings;
+    Location transparencyWhere;  ///< of settings.transparency; line 0: the document has none
     Background background;
     std::optional<Skybox> skybox;
     std::string entityFile;         ///< as written

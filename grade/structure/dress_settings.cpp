@@ -51,7 +51,8 @@ std::vector<Fix> explainSettings(const SearchContext& context, const Outline& mi
         say("transparency.mode",
             isDrawnOpaque(ours) ? causeMessage<"part.finding/transparency-off">()
                                 : causeMessage<"part.finding/transparency-on">(),
-            Location{}, [transparency = theirs.settings.transparency](Outline& o) {
+            ours.settings.transparency ? ours.transparencyWhere : ours.where,
+            [transparency = theirs.settings.transparency](Outline& o) {
                 o.rest.settings.transparency = transparency;
             });
     if (theirs.skybox.has_value() != ours.skybox.has_value() ||

@@ -299,6 +299,7 @@ void SceneBuilder::render(pugi::xml_node element) {
     settings.viewer = kViewerWords.find(given.text("viewer"));
     settings.specular = kSpecularWords.find(given.text("specular"));
     settings.transparency = kTransparencyWords.find(given.text("transparency"));
+    if (settings.transparency) scene_.transparencyWhere = given.where("transparency");
     settings.shadows = kShadowsWords.find(given.text("shadows"));
     if (const std::string& text = given.text("background"); !text.empty()) {
         scene_.background.where = given.where("background");

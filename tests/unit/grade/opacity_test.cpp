@@ -121,14 +121,25 @@ TEST_CASE("other transparent parts of a texture are a cause") {
 }
 
 TEST_CASE("transparency that is off is one cause for the scene") {
-    const grade::Grade off =
-        gradeOf(kGlass, sceneXml(R"(opacity="0.4")", R"(<render transparency="off"/>)"));
+    const std::string opaque = sceneXml(R"(opacity="0.4")", R"(<render transparency="off"/>)");
+    const grade::Grade off = gradeOf(kGlass, opaque);
     const grade::GradedCause& cause = onlyCause(off);
     CHECK(cause.code == "transparency.mode");
     CHECK_THAT(cause.message.text, Catch::Contains("transparency is off"));
     // The other way round; and opacities that the reference does not show are none.
-    const std::string opaque = sceneXml(R"(opacity="0.4")", R"(<render transparency="off"/>)");
-    CHECK(onlyCause(gradeOf(opaque, kGlass)).code == "transparency.mode");
+    const grade::Grade on = gradeOf(opaque, kGlass);
+    CHECK(onlyCause(on).code == "transparency.mode");
+    // The places are those of the attribute, and of the root where it is absent.
+    const auto lineOf = [](const std::string& document, std::string_view part) {
+        const std::size_t at = document.find(part);
+        REQUIRE(at != std::string::npos);
+        return 1 + std::count(document.begin(), document.begin() + static_cast<long>(at), '\n');
+    };
+    REQUIRE(cause.places.size() == 1);
+    CHECK(cause.places[0].where.line == lineOf(opaque, "transparency=\"off\""));
+    CHECK(cause.places[0].where.line > 1);
+    REQUIRE(onlyCause(on).places.size() == 1);
+    CHECK(onlyCause(on).places[0].where.line == lineOf(kGlass, "<world"));
     CHECK(gradeOf(opaque, sceneXml("", R"(<render transparency="off"/>)")).causes.empty());
     CHECK(gradeOf(kGlass, sceneXml(R"(opacity="0.4")", R"(<render transparency="exact"/>)"))
               .causes.empty());

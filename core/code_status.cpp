@@ -24,7 +24,7 @@ int statusOf(const std::string& code) {
         {"busy.resources", 503},      {"option.unavailable", 422},
         {"assignment.no-token", 403}, {"assignment.closed", 403},
         {"assignment.code", 401},     {"assignment.tries", 429},
-        {"assignment.failed", 503},
+        {"assignment.failed", 503},   {"busy.cancelled", 503},
     };
     if (const auto found = kExact.find(code); found != kExact.end()) return found->second;
     for (const char* family : {"option.", "http.", "xml.", "bundle."})

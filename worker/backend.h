@@ -2,6 +2,7 @@
 
 #include <any>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <stdexcept>
 #include <string>
@@ -51,6 +52,10 @@ struct RunOptions {
     /// them.
     std::string tag;
     Turn turn;
+    /// Whether nobody waits for the reply any more. Where it is given, it is asked every
+    /// Channel::kLook from the thread of a worker until run() ends, and once it is true, tasks that
+    /// look at WorkerState::isCancelled end early: Busy busy.cancelled.
+    std::function<bool()> isGone = {};
 };
 
 /// The jobs of one kind since the start.

@@ -32,9 +32,10 @@ enum class Outcome {
     done,
     refused,  ///< Error: the caller's fault
     broken,   ///< any other exception
-    memory    ///< the worker's memory did not suffice
+    memory,   ///< the worker's memory did not suffice
+    cancelled
 };
-constexpr Outcome lastOf(Outcome) { return Outcome::memory; }
+constexpr Outcome lastOf(Outcome) { return Outcome::cancelled; }
 
 /// Precedes the reply of a finished job; the whole answer of any other.
 struct AnswerHead {

@@ -29,6 +29,8 @@ std::string work(WorkerState& state, std::string_view job) {
     } catch (const Error& error) {
         head.outcome = Outcome::refused;
         head.diagnostics = error.diagnostics();
+    } catch (const Cancelled&) {
+        head.outcome = Outcome::cancelled;
     } catch (const std::bad_alloc&) {
         head.outcome = Outcome::memory;
     } catch (const std::exception& fault) {

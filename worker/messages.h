@@ -5,6 +5,7 @@
 namespace farol::worker {
 
 inline constexpr MessageRow kWorkerMessages[] = {
+    {"busy.cancelled", "the client has closed the connection; the rest is not drawn"},
     {"busy.deadline", "the work was not done in time; try again later"},
     {"busy.deadline/processor",
      "the worker got too little processor time before the deadline; try again later"},
@@ -21,6 +22,17 @@ inline constexpr MessageRow kWorkerMessages[] = {
     {"limit.triangles/mesh",
      "the mesh would have {count} triangles; expected at most {max}; use fewer divisions",
      {"300000", "250000"}},
+    {"option.range/frames",
+     "frames times width times height is {value}; expected at most {max}",
+     {"99000000", "64000000"}},
+    {"option.range/loop-frames",
+     "one loop of the scene takes {seconds} s and has {value} frames at this rate; expected 2 to "
+     "{max}; give \"frames\", or another \"fps\"",
+     {"60", "720", "120"}},
+    {"option.range/loop-none",
+     "the scene has no loop shorter than an hour; give it a time range, as in <render time=\"0 "
+     "10\"/>, or use over=camera"},
+    {"option.range/loop-still", "nothing moves in this scene; use over=camera"},
     {"option.range/mesh-format", "format \"{value}\" is unknown; expected 3d, obj or ply", {"stl"}},
     {"worker.crashed", "the worker that had this request crashed"},
     {"worker.crashed/start", "no worker could be started for this request; try again later"},

@@ -32,6 +32,26 @@ QueueLimits withSlack(QueueLimits limits) {
     return limits;
 }
 
+/// The caller of a job, which may give up before the job ends.
+class Caller {
+  public:
+    explicit Caller(std::function<bool()> isGone) : isGone_(std::move(isGone)) {}
+    bool isGone() {
+        const std::lock_guard lock(mutex_);
+        return hasLeft_ || (isGone_ && isGone_());
+    }
+    /// Its function is not called any more.
+    void leave() {
+        const std::lock_guard lock(mutex_);
+        hasLeft_ = true;
+    }
+
+  private:
+    std::mutex mutex_;
+    const std::function<bool()> isGone_;
+    bool hasLeft_ = false;
+};
+
 int sparesOf(const PoolOptions& options) {
     return options.isolatesUploads ? std::max(options.spares, options.workers) : options.spares;
 }
@@ -138,7 +158,7 @@ void WorkerPool::admit(const JobIdentity& identity) {
                seconds);
 }
 
-Answer WorkerPool::askSlot(Slot& slot, const PackedJob& job) {
+Answer WorkerPool::askSlot(Slot& slot, const PackedJob& job, const std::function<bool()>& isGone) {
     const Clock::time_point end = Clock::now() + options_.queue.deadline;
     for (int tries = 1;; ++tries) {
         if (slot.process && !slot.process->alive()) drop(slot, "idle");
@@ -150,9 +170,11 @@ Answer WorkerPool::askSlot(Slot& slot, const PackedJob& job) {
         }
         if (!slot.process && !ready(slot, patience))
             throw Busy(message<"worker.crashed/start">(), 2);
+        if (isGone()) throw Busy(message<"busy.cancelled">(), 1);
         ++slot.jobs;
         try {
             CallLimits limits;
+            limits.isGone = isGone;
             limits.cpu = options_.cpu.count() > 0 ? options_.cpu : 2 * options_.queue.deadline;
             limits.deadline = std::chrono::ceil<std::chrono::milliseconds>(end - Clock::now());
             Answer answer = slot.process->call(job, limits);
@@ -160,7 +182,7 @@ Answer WorkerPool::askSlot(Slot& slot, const PackedJob& job) {
                 // Replaces the process, whose heap was full.
                 drop(slot, "memory");
                 quarantine_.strike(job.identity, Quarantine::Cause::exhausted);
-            } else {
+            } else if (answer.outcome != Outcome::cancelled) {
                 quarantine_.success(job.identity);
             }
             return answer;
@@ -211,6 +233,8 @@ void WorkerPool::judge(Answer& answer) const {
             return;
         case Outcome::refused:
             throw Error(std::move(answer.diagnostics));
+        case Outcome::cancelled:
+            throw Busy(message<"busy.cancelled">(), 1);
         case Outcome::memory:
             throw Error(message<"limit.memory">("max"_arg = options_.worker.memoryBytes >> 20U));
         case Outcome::broken:
@@ -220,24 +244,26 @@ void WorkerPool::judge(Answer& answer) const {
 }
 
 // The job is shared: a caller that gives up leaves it behind.
-Done<std::any> WorkerPool::ask(PackedJob job, const Turn& turn) {
+Done<std::any> WorkerPool::ask(PackedJob job, const RunOptions& options) {
     admit(job.identity);
     const auto shared = std::make_shared<const PackedJob>(std::move(job));
+    const auto caller = std::make_shared<Caller>(options.isGone);
+    const std::shared_ptr<void> leave(nullptr, [&](void*) { caller->leave(); });
     Done<Answer> done = queue_.run<Answer>(
-        [this, shared](Slot& slot) {
-            Answer answer = askSlot(slot, *shared);
+        [this, shared, caller](Slot& slot) {
+            Answer answer = askSlot(slot, *shared, [&] { return caller->isGone(); });
             if (slot.process) {
                 slot.isSpent = options_.isolatesUploads && shared->isUpload;
                 slot.cpuWhenIdle = cpuTimeOf(slot.process->pid());
             }
             return answer;
         },
-        shared->identity.scene, turn);
+        shared->identity.scene, options.turn);
     judge(done.result);
     return {std::move(done.result.reply), done.queueMs};
 }
 
-Done<std::any> WorkerPool::askCounted(PackedJob job, const Turn& turn) {
+Done<std::any> WorkerPool::askCounted(PackedJob job, const RunOptions& options) {
     const std::string task(job.task);
     const auto count = [&](long JobCounts::*outcome, double seconds) {
         const std::lock_guard lock(mutex_);
@@ -247,7 +273,7 @@ Done<std::any> WorkerPool::askCounted(PackedJob job, const Turn& turn) {
     };
     const Clock::time_point begin = Clock::now();
     try {
-        Done<std::any> done = ask(std::move(job), turn);
+        Done<std::any> done = ask(std::move(job), options);
         const std::chrono::duration<double> took = Clock::now() - begin;
         count(&JobCounts::done, std::max(0.0, took.count() - done.queueMs / 1000.0));
         return done;
@@ -261,7 +287,7 @@ Done<std::any> WorkerPool::askCounted(PackedJob job, const Turn& turn) {
 }
 
 Done<std::any> WorkerPool::submit(PackedJob job, const RunOptions& options) {
-    if (!job.isShared) return askCounted(std::move(job), options.turn);
+    if (!job.isShared) return askCounted(std::move(job), options);
     const std::string key = options.tag.empty() ? job.identity.request : options.tag;
     std::promise<Done<std::any>> promise;
     for (;;) {
@@ -288,7 +314,8 @@ Done<std::any> WorkerPool::submit(PackedJob job, const RunOptions& options) {
         inFlight_.erase(key);
     };
     try {
-        Done<std::any> done = askCounted(std::move(job), options.turn);
+        // Others may share the reply: it is wanted even where its first client has gone.
+        Done<std::any> done = askCounted(std::move(job), {options.tag, options.turn});
         forget();
         promise.set_value(done);
         return done;

@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <condition_variable>
+#include <functional>
 #include <future>
 #include <map>
 #include <memory>
@@ -68,12 +69,12 @@ class WorkerPool final : public Backend {
     bool ready(Slot& slot, std::chrono::milliseconds patience);
     void drop(Slot& slot, const std::string& reason);
     /// Runs the job on a worker and judges its answer.
-    Done<std::any> ask(PackedJob job, const Turn& turn);
-    Answer askSlot(Slot& slot, const PackedJob& job);
+    Done<std::any> ask(PackedJob job, const RunOptions& options);
+    Answer askSlot(Slot& slot, const PackedJob& job, const std::function<bool()>& isGone);
     void excuse(Slot& slot, const WorkerLost& lost, const JobIdentity& identity);
     /// Throws the exception of an answer that is not `done`.
     void judge(Answer& answer) const;
-    Done<std::any> askCounted(PackedJob job, const Turn& turn);
+    Done<std::any> askCounted(PackedJob job, const RunOptions& options);
     void admit(const JobIdentity& identity);
 
     const PoolOptions options_;

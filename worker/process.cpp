@@ -189,10 +189,17 @@ Answer WorkerProcess::call(const PackedJob& job, const CallLimits& limits) {
     const auto cpuUsed = [&] { return cpuTimeOf(pid_) - before; };
     Channel::Result result = channel_->send(job.bytes, end);
     std::string message;
+    bool isCancelled = false;
+    const auto watch = [&] {
+        if (!isCancelled && limits.isGone && limits.isGone()) {
+            isCancelled = true;
+            channel_->send("", end);  // a worker that is gone shows when its answer is read
+        }
+        return cpuUsed() > limits.cpu;
+    };
     try {
         if (result == Channel::Result::done)
-            result = channel_->receive(message, end, job.limits.bytes,
-                                       [&] { return cpuUsed() > limits.cpu; });
+            result = channel_->receive(message, end, job.limits.bytes, watch);
     } catch (...) {
         this->end();  // the rest of the reply would be read as the next one
         throw;

@@ -3,6 +3,7 @@
 #include <sys/types.h>
 
 #include <chrono>
+#include <functional>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -38,6 +39,7 @@ class WorkerLost : public std::runtime_error {
 struct CallLimits {
     std::chrono::milliseconds deadline{0};
     std::chrono::milliseconds cpu{0};  ///< of all threads of the worker
+    std::function<bool()> isGone;      ///< RunOptions::isGone; may be empty
 };
 
 struct WorkerOptions {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -16,6 +17,9 @@ struct PackedRubric {
 };
 PackedRubric packRubric(const grade::Rubric& rubric);
 
+/// Ends a job whose reply nobody waits for.
+struct Cancelled {};
+
 /// State that a worker keeps between jobs.
 struct WorkerState {
     /// `maxCost`: core-seconds that all frames of a job may cost together (render/plan/cost.h); 0:
@@ -27,6 +31,9 @@ struct WorkerState {
     render::Renderer renderer;
     grade::Grader grader{renderer};
     const double maxCost;
+    /// Whether nobody waits for the reply to the job. A task of many frames asks before each one,
+    /// and throws Cancelled.
+    std::function<bool()> isCancelled = [] { return false; };
 
   private:
     LruCache<std::string, grade::Rubric> rubrics_;

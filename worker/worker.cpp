@@ -1,5 +1,6 @@
 #include "worker/worker.h"
 
+#include <poll.h>
 #include <signal.h>
 #include <unistd.h>
 
@@ -31,7 +32,14 @@ int runWorker(const SandboxOptions& options, double maxCost, render::GlSource so
     constexpr auto kNever = Clock::time_point::max();
     bool open = channel.send(pack(hello), kNever) == Channel::Result::done && hello.fault.empty();
     std::string message;
+    // Nothing follows a job before its answer, except an empty message that cancels it.
+    if (state)
+        state->isCancelled = [] {
+            pollfd more{kSocket, POLLIN, 0};
+            return poll(&more, 1, 0) > 0;
+        };
     while (open && channel.receive(message, kNever) == Channel::Result::done) {
+        if (message.empty()) continue;  // the answer was faster
         const std::string answer = work(*state, message);
         std::string().swap(message);
         open = channel.send(answer, kNever) == Channel::Result::done;

@@ -27,6 +27,12 @@ Link::Got Link::receive() {
     }
 }
 
+bool Link::isAtEnd() const {
+    char next = 0;
+    const ssize_t got = ::recv(fd_, &next, 1, MSG_PEEK | MSG_DONTWAIT);
+    return got == 0 || (got < 0 && errno != EAGAIN && errno != EINTR);
+}
+
 std::size_t Link::push(std::string_view more) {
     if (held_) return 0;
     std::size_t taken = 0;

@@ -15,6 +15,9 @@ class Link {
     enum class Got { bytes, nothing, closed };
     /// Appends some of the available bytes to in().
     Got receive();
+    /// Whether the other side has ended its sending or the connection, and nothing it sent is left.
+    /// Changes nothing.
+    bool isAtEnd() const;
     /// Bytes that have arrived and are not consumed yet.
     std::string& in() { return in_; }
 

@@ -148,6 +148,7 @@ void Listener::serve(Client& client, Connection& connection) {
         }
         Incoming incoming = client.arrival.take();
         incoming.head.request.remoteAddress = client.remoteAddress;
+        incoming.head.request.isGone = [&link = client.link] { return link.isAtEnd(); };
         client.answered = connection.answer(client.link, std::move(incoming), closing_);
         count(client);
     }

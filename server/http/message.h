@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -31,6 +32,9 @@ struct Request {
     std::string remoteAddress;  ///< of the socket's peer, never from a header
     std::optional<Authority> authority;  ///< of an absolute target, else of Host
     bool lacksHost = false;              ///< HTTP/1.1 without a Host header
+    /// Whether the client has closed its side of the connection and sent nothing more. To be called
+    /// while the request is handled.
+    std::function<bool()> isGone = [] { return false; };
 
     /// The header's value (name in lower case), or nothing.
     std::optional<std::string> header(std::string_view name) const;

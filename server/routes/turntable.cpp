@@ -11,9 +11,6 @@
 namespace farol::server {
 namespace {
 
-constexpr int kMaxFrames = 120;
-constexpr std::int64_t kMaxTurnPixels = 33'554'432;
-
 using Animation = std::optional<image::AnimationFormat>;
 
 /// Reads the format of an animation from the query and removes it, since other routes have none.
@@ -34,6 +31,30 @@ Animation animationOf(http::Fields& query, const std::optional<std::string>& acc
     return {};
 }
 
+/// Reads whether the camera or the time moves, and the frames: of a loop, 24 in real time without
+/// `frames` and `fps`; with one of them the other follows from the scene.
+void readCourse(const Parameters& wanted, worker::TurntableTask::Request& turn) {
+    const std::string over = wanted.ownValue("over", "camera");
+    if (over != "camera" && over != "time")
+        throw Error(message<"option.range/words">("name"_arg = "over", "value"_arg = over,
+                                                  "known"_arg = "camera or time"),
+                    {}, "over");
+    turn.isCameraTurning = over == "camera";
+    const auto isGiven = [&](std::string_view name) {
+        return std::any_of(wanted.own.begin(), wanted.own.end(),
+                           [&](const auto& one) { return one.first == name; });
+    };
+    const bool followsRate = !turn.isCameraTurning && !isGiven("frames") && isGiven("fps");
+    const bool followsLoop = !turn.isCameraTurning && !isGiven("fps");
+    turn.frames = followsRate
+                      ? 0
+                      : static_cast<int>(wholeNumber("frames", wanted.ownValue("frames", "24"), 2,
+                                                     worker::kMaxTurnFrames));
+    turn.fps = followsLoop
+                   ? 0.0
+                   : static_cast<double>(wholeNumber("fps", wanted.ownValue("fps", "12"), 1, 60));
+}
+
 }  // namespace
 
 http::Response getTurntable(Context& context, const Call& call) {
@@ -43,17 +64,10 @@ http::Response getTurntable(Context& context, const Call& call) {
     turn.animation = animationOf(query, accept);
     const http::Fields preset{{"width", "320"}, {"height", "240"}, {"format", "jpeg"}};
     const Parameters wanted =
-        readParameters(query, {true, true, {"frames", "fps", "onerror"}, preset});
+        readParameters(query, {true, true, {"over", "frames", "fps", "onerror"}, preset});
     checkOnError(wanted);
-    turn.frames =
-        static_cast<int>(wholeNumber("frames", wanted.ownValue("frames", "24"), 2, kMaxFrames));
-    turn.fps = static_cast<double>(wholeNumber("fps", wanted.ownValue("fps", "12"), 1, 60));
-    const std::int64_t pixels = std::int64_t{turn.frames} * wanted.picture.width.value_or(1) *
-                                wanted.picture.height.value_or(1);
-    if (pixels > kMaxTurnPixels)
-        throw Error(
-            message<"option.range/frames">("value"_arg = pixels, "max"_arg = kMaxTurnPixels), {},
-            "frames");
+    readCourse(wanted, turn);
+    worker::checkTurnPixels(turn.frames, wanted.picture);
     const std::string type(turn.animation ? image::specOf(*turn.animation).mime
                                           : "multipart/x-mixed-replace");
     const bool isApng = turn.animation == image::AnimationFormat::apng;
@@ -63,7 +77,8 @@ http::Response getTurntable(Context& context, const Call& call) {
     ServedScene scene = context.scenes.find(call.parameter);
     const auto tagOf = [&] {
         return entityTag({scene.document, scene.version, keyOf(wanted), context.backend.version(),
-                          type, std::to_string(turn.frames), std::to_string(turn.fps)});
+                          type, turn.isCameraTurning ? "camera" : "time",
+                          std::to_string(turn.frames), std::to_string(turn.fps)});
     };
     std::string tag = tagOf();
     http::Response response;
@@ -74,7 +89,9 @@ http::Response getTurntable(Context& context, const Call& call) {
         turn.job.options = wanted.picture;
         turn.job.strict = wanted.strict;
         tag = tagOf();
-        response = drawn(context, context.backend.run<worker::TurntableTask>(turn));
+        worker::RunOptions run;
+        run.isGone = call.request.isGone;
+        response = drawn(context, context.backend.run<worker::TurntableTask>(turn, run));
     }
     response.set("ETag", tag);
     response.set("Vary", "Accept");

@@ -1,11 +1,14 @@
 // Requests about images: errors as pictures, turntables, models, search; then the same
 // with the real renderer.
 #include <catch2/catch.hpp>
+#include <chrono>
+#include <thread>
 
 #include "fixture.h"
 #include "image/image_file.h"
 #include "real.h"
 #include "tests/support/errors.h"
+#include "worker/tasks/turntable.h"
 
 using namespace farol;
 using namespace farol::test;
@@ -84,6 +87,38 @@ TEST_CASE("a turntable is an animated PNG or its pictures one by one") {
                             "?frames=120&width=1024&height=1024"})
         CHECK(get(server.port(), target + bad).status == 400);
     CHECK(get(server.port(), target, {{"Accept", "text/html"}}).status == 406);
+}
+
+TEST_CASE("what moves in a turntable, and how many frames, is in its request") {
+    const TemporaryFolder folder("http-turn-over");
+    FakeServer server(serving(folder));
+    worker::TurntableTask::Request last;
+    server.backend.on<worker::TurntableTask>([&](const worker::TurntableTask::Request& request) {
+        last = request;
+        return render::Picture{};
+    });
+    const std::string target = "/v1/scenes/torch/turntable";
+    struct Row {
+        const char* query;
+        bool isCameraTurning;
+        int frames;
+        double fps;
+    };
+    for (const Row& row :
+         {Row{"", true, 24, 12}, Row{"?over=camera&fps=5", true, 24, 5},
+          Row{"?over=time", false, 24, 0}, Row{"?over=time&frames=40", false, 40, 0},
+          Row{"?over=time&fps=25", false, 0, 25},
+          Row{"?over=time&fps=25&frames=9", false, 9, 25}}) {
+        INFO(row.query);
+        CHECK(get(server.port(), target + row.query).status == 200);
+        CHECK(last.isCameraTurning == row.isCameraTurning);
+        CHECK(last.frames == row.frames);
+        CHECK(last.fps == row.fps);
+    }
+    CHECK(get(server.port(), target + "?over=moon").code() == "option.range");
+    CHECK(get(server.port(), target + "?over=time&frames=").status == 400);
+    CHECK(get(server.port(), target + "?over=time").header("etag") !=
+          get(server.port(), target + "?over=camera").header("etag"));
 }
 
 TEST_CASE("the gallery is searched by words") {
@@ -171,4 +206,96 @@ TEST_CASE("a turntable of a real scene turns, and an error is drawn") {
     const image::Image image = image::decodeImage(drawn.body, "error.png");
     CHECK(image.width == 300);
     CHECK(std::count(image.pixels.begin(), image.pixels.end(), 255) > 300 * 80 + 100);  // letters
+}
+
+TEST_CASE("over=time draws one loop of the scene without a seam") {
+    RealServer server;
+    const auto store = [&](const std::string& xml) {
+        return post(server.port(), "/v1/scenes", xml).header("location");
+    };
+    const std::string box =
+        "<models><model file=\"box_2_1.3d\"><color><diffuse R=\"200\" G=\"9\" "
+        "B=\"9\"/></color></model></models></group>";
+    const std::string turning = world(
+        "<group><transform><rotate time=\"8\" x=\"0\" y=\"1\" z=\"0\"/><translate x=\"1\" y=\"0\" "
+        "z=\"0\"/></transform>" +
+        box);
+    const std::string at = store(turning), size = "&width=64&height=48";
+    const auto imageAt = [&](double timeS) {
+        return get(server.port(), at + "/image?format=png&time=" + std::to_string(timeS) + size)
+            .body;
+    };
+    const auto framesOf = [&](const std::string& query) {
+        const Answer parts =
+            get(server.port(), at + "/turntable?over=time&format=png" + query + size);
+        REQUIRE(parts.status == 200);
+        std::vector<std::string> frames;
+        for (std::size_t from = 0;
+             (from = parts.body.find("\x89PNG", from)) != std::string::npos;) {
+            const std::size_t end = parts.body.find("\r\n--farol-frame", from);
+            frames.push_back(parts.body.substr(from, end - from));
+            from = end;
+        }
+        return frames;
+    };
+    const std::vector<std::string> frames = framesOf("&frames=4");
+    REQUIRE(frames.size() == 4);
+    for (std::size_t i = 0; i < 4; ++i) CHECK(frames[i] == imageAt(2.0 * static_cast<double>(i)));
+    CHECK(frames[1] != frames[0]);
+    // The frame after the last is the first.
+    CHECK(frames[0] == imageAt(8.0));
+    CHECK(framesOf("&fps=2").size() == 16);
+    CHECK(framesOf("&frames=3&time=1")[0] == imageAt(1.0));
+    // The rate is that of the scene's own time: 4 frames in 8 s, 2 s each.
+    const Answer animation = get(server.port(), at + "/turntable?over=time&frames=4" + size);
+    REQUIRE(animation.status == 200);
+    const std::size_t control = animation.body.find("fcTL");
+    REQUIRE(control != std::string::npos);
+    const auto shortAt = [&](std::size_t offset) {
+        return static_cast<unsigned char>(animation.body[control + offset]) * 256 +
+               static_cast<unsigned char>(animation.body[control + offset + 1]);
+    };
+    CHECK(shortAt(24) == 2 * shortAt(26));
+
+    for (const auto& [query, message] : std::vector<std::pair<std::string, std::string>>{
+             {"&fps=60", "480 frames"},
+             {"&frames=120&width=1024&height=1024", "at most 33554432"}}) {
+        const Answer refused = get(server.port(), at + "/turntable?over=time" + query);
+        CHECK(refused.status == 400);
+        CHECK_THAT(refused.body, Catch::Contains(message));
+    }
+    const std::string still = store(world("<group>" + box));
+    const Answer refused = get(server.port(), still + "/turntable?over=time");
+    CHECK(refused.code() == "option.range");
+    CHECK_THAT(refused.body, Catch::Contains("nothing moves"));
+}
+
+TEST_CASE("a client that goes away ends the drawing of its turntable") {
+    RealServer server;
+    const std::string at =
+        post(server.port(), "/v1/scenes", model("sphere_1_64_64.3d")).header("location");
+    const auto countOf = [](long worker::JobCounts::*outcome) {
+        const auto jobs = realBackend().state().jobs;
+        const auto found = jobs.find("turntable");
+        return found == jobs.end() ? 0 : found->second.*outcome;
+    };
+    const long done = countOf(&worker::JobCounts::done),
+               failed = countOf(&worker::JobCounts::failed);
+    const auto restarts = realBackend().state().restarts;
+    {
+        RawClient client(server.port());
+        client.send("GET " + at +
+                    "/turntable?frames=120&width=512&height=512&aa=16 HTTP/1.1\r\n"
+                    "Host: localhost\r\n\r\n");
+        while (realBackend().state().busy == 0)
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    while (countOf(&worker::JobCounts::done) == done &&
+           countOf(&worker::JobCounts::failed) == failed)
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    CHECK(countOf(&worker::JobCounts::done) == done);
+    CHECK(countOf(&worker::JobCounts::failed) == failed + 1);
+    // Its worker goes on.
+    CHECK(get(server.port(), at + "/turntable?frames=2&width=16&height=16").status == 200);
+    CHECK(realBackend().state().restarts == restarts);
 }

@@ -2,13 +2,18 @@
 """Animations of 60 frames in each format: CPU time, bytes, and how decoded frames differ from drawn ones.
 
     python3 bench/video.py PROGRAM [SCENE...] [--runs N] [--errors]
+    python3 bench/video.py PROGRAM [SCENE...] [--runs N] --processes 1 2 3 [--threads 0 2]
 
 Times are the CPU time of the program, medians of N runs (3), the formats in turn. --errors decodes every
-tenth frame (ffmpeg) and prints mean PSNR (dB) and mean FLIP against PNG frames.
+tenth frame (ffmpeg) and prints mean PSNR (dB) and mean FLIP against PNG frames. --processes compares numbers
+of processes (MP4 and WebP), with --threads for each number of llvmpipe's threads, in turn; medians and
+least wall time, and the load of the machine meanwhile.
 """
 
 import argparse
+import itertools
 import json
+import os
 import resource
 import statistics
 import subprocess
@@ -22,14 +27,35 @@ FORMATS = ["mp4", "webm", "webp", "gif", "png"]
 FRAMES, STEP = 60, 10
 
 
-def draw(program, scene, output):
+def draw(program, scene, output, processes=None, threads=None):
     """Returns (CPU s, wall s)."""
     before, start = resource.getrusage(resource.RUSAGE_CHILDREN), time.monotonic()
     subprocess.run([program, "render", ROOT / "scenes" / scene / "scene.xml", "-o", output, "--frames",
-                    str(FRAMES), "--width", "640", "--height", "480"], check=True)
+                    str(FRAMES), "--width", "640", "--height", "480", "--json"] +
+                   (["--jobs", str(processes)] if processes else []), check=True, stdout=subprocess.DEVNULL,
+                   env=os.environ | ({} if threads is None else {"LP_NUM_THREADS": str(threads)}))
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     return (after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime,
             time.monotonic() - start)
+
+
+def compare_processes(program, flags):
+    print("| Scene | Format | Processes | LP_NUM_THREADS | CPU s | Wall s, median | least | Load |")
+    for scene, ending in itertools.product(flags.scenes, ["mp4", "webp"]):
+        cases = list(itertools.product(flags.processes, flags.threads or [None]))
+        runs, loads, digests = {case: [] for case in cases}, {case: [] for case in cases}, set()
+        with tempfile.TemporaryDirectory() as name:
+            output = Path(name) / f"loop.{ending}"
+            for _, case in itertools.product(range(flags.runs), cases):
+                runs[case].append(draw(program, scene, output, *case))
+                loads[case].append(os.getloadavg()[0])
+                digests.add(output.read_bytes())
+        assert len(digests) == 1, "the bytes differ"
+        for case in cases:
+            cpu, wall = (statistics.median(run[k] for run in runs[case]) for k in (0, 1))
+            print(f"| {scene} | {ending} | {case[0]} | {'default' if case[1] is None else case[1]} | {cpu:.2f} | "
+                  f"{wall:.2f} | {min(run[1] for run in runs[case]):.2f} | {statistics.median(loads[case]):.1f} |",
+                  flush=True)
 
 
 def errors(program, folder, ending):
@@ -52,8 +78,13 @@ def main():
     parser.add_argument("scenes", nargs="*", default=SCENES)
     parser.add_argument("--runs", type=int, default=3)
     parser.add_argument("--errors", action="store_true")
+    parser.add_argument("--processes", type=int, nargs="+")
+    parser.add_argument("--threads", type=int, nargs="+")
     flags = parser.parse_args()
     program = Path(flags.program).resolve()
+    if flags.processes:
+        compare_processes(program, flags)
+        return
     print("| Scene | Format | CPU s | Wall s | Bytes |" + (" PSNR dB | FLIP |" if flags.errors else ""))
     for scene in flags.scenes:
         with tempfile.TemporaryDirectory() as name:

@@ -1,16 +1,19 @@
 #include "cli/animation.h"
 
-#include <unistd.h>
-
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <iostream>
+#include <cstdlib>
 #include <numbers>
 #include <optional>
+#include <thread>
+#include <vector>
 
 #include "cli/command.h"
 #include "cli/files.h"
+#include "cli/frame_pipe.h"
 #include "cli/messages.h"
+#include "cli/progress.h"
 #include "core/text.h"
 #include "image/format.h"
 #include "image/frame_encoder.h"
@@ -22,10 +25,38 @@ namespace {
 
 constexpr int kMaxFrames = 3600;
 
-void showProgress(int done, int all) {
-    if (!isatty(STDERR_FILENO)) return;
-    std::cerr << "\rframe " << done << " of " << all << (done == all ? "\n" : "") << std::flush;
-}
+/// Fewest frames of a process: a renderer takes as long to start as several frames.
+constexpr int kLeastShare = 8;
+
+/// None where the report is JSON.
+class FrameProgress {
+  public:
+    explicit FrameProgress(const Report& report) {
+        if (!report.json()) shown_.emplace("drawing");
+    }
+    void operator()(int done, int all) {
+        if (shown_) (*shown_)(static_cast<std::size_t>(done), static_cast<std::size_t>(all));
+    }
+
+  private:
+    std::optional<Progress> shown_;
+};
+
+/// Writes each frame as an image of the first output.
+class NumberedFiles final : public image::AnimationWriter {
+  public:
+    NumberedFiles(int frames, const render::PictureOptions& options, Outputs& outputs)
+        : AnimationWriter({frames}), options_(options), outputs_(outputs) {}
+
+  private:
+    void append(const image::Image& frame) override {
+        outputs_.write(0, image::encode(frame, options_.format, options_.quality), added_);
+    }
+    std::string end() override { return ""; }
+
+    const render::PictureOptions& options_;
+    Outputs& outputs_;
+};
 
 }  // namespace
 
@@ -70,50 +101,98 @@ std::optional<image::AnimationFormat> animationFormat(const std::string& path,
     return std::nullopt;
 }
 
-render::Picture renderAnimation(render::Job job, const Schedule& schedule, const std::string& path,
-                                Outputs& outputs, render::GlSource gl) {
+int drawingProcesses(const AnimationFlags& flags) {
+    if (flags.jobs) return *flags.jobs;
+    const int cores =
+        std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, kMaxDrawingProcesses);
+    return flags.frames ? std::clamp(*flags.frames / kLeastShare, 1, cores) : cores;
+}
+
+Share shareOf(int process, const AnimationFlags& flags, int frames) {
+    int count = drawingProcesses(flags);
+    if (!flags.jobs) count = std::clamp(frames / kLeastShare, 1, count);
+    if (process >= count) return {frames, count};
+    return {(frames - 1 + process) % count, count};
+}
+
+void shareProcessor(int processes) {
+    if (processes == 1) return;
+    const int cores = static_cast<int>(std::thread::hardware_concurrency());
+    // One thread of llvmpipe is the process's own.
+    const int threads = std::max(1, cores / processes);
+    ::setenv("LP_NUM_THREADS", std::to_string(threads == 1 ? 0 : threads).c_str(), 0);
+}
+
+void helpAnimation(render::Job job, const Schedule& schedule, const Share& share, int socket,
+                   render::GlSource gl) {
+    if (share.index >= schedule.frames) return;
+    const int frames = (schedule.frames - 1 - share.index) / share.count + 1;
+    FrameSender sender(frames, socket);
+    image::FrameEncoder sending(sender);
+    render::Renderer renderer(gl);
+    for (int i = share.index; i < schedule.frames; i += share.count) {
+        job.options.timeS = schedule.timeOf(i);
+        image::Image image;
+        renderer.draw(job, image);
+        sending.add(std::move(image));
+    }
+    sending.finish();
+}
+
+render::Picture renderAnimation(render::Job job, const Schedule& schedule, const Share& share,
+                                const std::string& path, Outputs& outputs, render::GlSource gl,
+                                Report& report) {
     const bool files = framePath(path, 0) != path;
     const std::optional<image::AnimationFormat> format = animationFormat(path, job.options.format);
     if (!files && !format) throw UsageError(message<"usage/frames-format">());
     std::unique_ptr<image::AnimationWriter> animation;
-    std::optional<image::FrameEncoder> encoder;
-    if (!files) {
+    if (files)
+        animation = std::make_unique<NumberedFiles>(schedule.frames, job.options, outputs);
+    else
         animation = image::specOf(*format).write({schedule.frames, schedule.fps,
                                                   job.options.background == "transparent",
                                                   job.options.quality});
-        encoder.emplace(*animation);
-    }
+    image::FrameEncoder encoder(*animation);
     render::Renderer renderer(gl);
     render::Picture last;
+    FrameProgress progress(report);
+    std::vector<bool> hasEnded(outputs.helpers().size());
     for (int i = 0; i < schedule.frames; ++i) {
-        job.options.timeS = schedule.beginS + i / schedule.fps;
-        image::Image image;
-        last = renderer.draw(job, image);
-        if (animation)
-            encoder->add(std::move(image));
-        else
-            outputs.write(0, image::encode(image, job.options.format, job.options.quality), i);
-        showProgress(i + 1, schedule.frames);
+        // Helper h draws the share after the own one's, h + 1 further.
+        const int helper = (i - share.index + share.count) % share.count - 1;
+        std::optional<image::Image> frame;
+        if (helper >= 0 && !hasEnded.at(static_cast<std::size_t>(helper))) {
+            frame = receiveFrame(outputs.helpers()[static_cast<std::size_t>(helper)]);
+            hasEnded[static_cast<std::size_t>(helper)] = !frame;
+        }
+        if (!frame) {
+            job.options.timeS = schedule.timeOf(i);
+            last = renderer.draw(job, frame.emplace());
+        }
+        encoder.add(std::move(*frame));
+        progress(i + 1, schedule.frames);
     }
-    if (animation) {
-        encoder->finish();
-        outputs.write(0, animation->finish());
-    }
-    last.contentType = animation ? std::string(image::specOf(*format).mime)
-                                 : image::contentType(job.options.format);
+    encoder.finish();
+    const std::string bytes = animation->finish();
+    if (!files) outputs.write(0, bytes);
+    for (const bool one : hasEnded)
+        if (one) report.add({diagnosticOf(Severity::warning, message<"worker.crashed/helper">())});
+    last.contentType =
+        files ? image::contentType(job.options.format) : std::string(image::specOf(*format).mime);
     return last;
 }
 
 render::Picture renderSheet(render::Job job, const SheetSize& size,
                             const std::optional<Schedule>& schedule, Outputs& outputs,
-                            render::GlSource gl) {
+                            render::GlSource gl, const Report& report) {
     render::Renderer renderer(gl);
+    FrameProgress progress(report);
     image::Sheet sheet(size.columns, size.rows);
     render::Picture last;
     std::optional<scene::Camera> first;
     for (int i = 0; i < size.count(); ++i) {
         if (schedule)
-            job.options.timeS = schedule->beginS + i / schedule->fps;
+            job.options.timeS = schedule->timeOf(i);
         else if (first)
             render::turnEye(job.options, *first, 2.0 * std::numbers::pi * i / size.count());
         image::Image image;
@@ -126,7 +205,7 @@ render::Picture renderSheet(render::Job job, const SheetSize& size,
                                                                "max"_arg = render::kMaxPixels));
         }
         sheet.add(image);
-        showProgress(i + 1, size.count());
+        progress(i + 1, size.count());
     }
     const image::Image whole = sheet.take();
     outputs.write(0, image::encode(whole, job.options.format, job.options.quality));

@@ -1,5 +1,6 @@
 #include "cli/confine.h"
 
+#include <fcntl.h>
 #include <signal.h>
 #include <sys/prctl.h>
 #include <sys/socket.h>
@@ -12,9 +13,11 @@
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <new>
+#include <numeric>
 #include <optional>
 
 #include "cli/command.h"
@@ -30,6 +33,9 @@ using worker::kSocket;
 constexpr int kMaxFrame = 3'600;
 constexpr std::uint64_t kMaxOutputBytes = std::uint64_t{16} << 30U;
 constexpr std::uint32_t kMaxFaultBytes = 8'192;
+
+/// Signals by which users and shells end programs.
+constexpr std::array kRequests{SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGQUIT};
 
 int exitStatus = kInternal;  ///< of the child, for its handler of the exit
 
@@ -52,6 +58,22 @@ struct Socket {
         fd = -1;
     }
 };
+
+void makePair(Socket& ours, Socket& theirs) {
+    int ends[2];
+    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
+        throw std::runtime_error(std::string("no socket for a process: ") + std::strerror(errno));
+    ours.fd = ends[0];
+    theirs.fd = ends[1];
+}
+
+/// fork(). Throws std::runtime_error with the reason.
+pid_t startProcess() {
+    const pid_t process = fork();
+    if (process < 0)
+        throw std::runtime_error(std::string("cannot start a process: ") + std::strerror(errno));
+    return process;
+}
 
 bool sendAll(int socket, const void* data, std::size_t size) {
     const char* from = static_cast<const char*>(data);
@@ -80,7 +102,8 @@ bool receiveAll(int socket, void* data, std::size_t size) {
 /// The child's side: the parent writes.
 class SentOutputs final : public Outputs {
   public:
-    explicit SentOutputs(worker::Layers layers) : layers_(std::move(layers)) {}
+    SentOutputs(worker::Layers layers, std::vector<int> helpers)
+        : layers_(std::move(layers)), helpers_(std::move(helpers)) {}
 
     void write(std::size_t output, std::string_view bytes, int frame) override {
         const Head head{static_cast<std::uint32_t>(output), frame, bytes.size()};
@@ -96,9 +119,11 @@ class SentOutputs final : public Outputs {
             throw OutputError(message<"output.unwritable/reason">("reason"_arg = uncut(fault)));
     }
     const worker::Layers& layers() const override { return layers_; }
+    const std::vector<int>& helpers() const override { return helpers_; }
 
   private:
     worker::Layers layers_;
+    std::vector<int> helpers_;
 };
 
 /// Writes them itself: the sandbox is off.
@@ -109,16 +134,45 @@ class OwnOutputs final : public Outputs {
         writeOutput(framePath(confinement_.outputs.at(output), frame), bytes);
     }
     const worker::Layers& layers() const override { return layers_; }
+    const std::vector<int>& helpers() const override { return helpers_; }
 
   private:
     const Confinement& confinement_;
     const worker::Layers layers_;
+    const std::vector<int> helpers_;
 };
+
+/// Keeps the signals by which users end programs for later: a file is written whole or not begun.
+class SignalsHeld {
+  public:
+    SignalsHeld() {
+        sigset_t requests;
+        sigemptyset(&requests);
+        for (const int one : kRequests) sigaddset(&requests, one);
+        sigprocmask(SIG_BLOCK, &requests, &before_);
+    }
+    ~SignalsHeld() { sigprocmask(SIG_SETMASK, &before_, nullptr); }
+    SignalsHeld(const SignalsHeld&) = delete;
+    SignalsHeld& operator=(const SignalsHeld&) = delete;
+
+  private:
+    sigset_t before_{};
+};
+
+/// Whether the output is a file that is written whole: nobody may be reading a pipe.
+bool isPlainFile(const std::string& path) {
+    std::error_code unknown;
+    const auto status = std::filesystem::status(path, unknown);
+    return path != "-" &&
+           (!std::filesystem::exists(status) || std::filesystem::is_regular_file(status));
+}
 
 /// Receives one output and writes it. Returns the reason of a failure, empty for none; nothing
 /// where the child ended before all of it arrived.
 std::optional<std::string> receiveOutput(int socket, const std::string& path, std::uint64_t size) {
     std::array<char, 256 << 10> chunk;
+    std::optional<SignalsHeld> held;
+    if (isPlainFile(path)) held.emplace();
     std::string fault;
     std::unique_ptr<OutputFile> file;
     const auto attempt = [&fault](const auto& step) {
@@ -167,24 +221,37 @@ Received writeOutputs(int socket, const Confinement& confinement) {
     return received;
 }
 
-/// Ends the process with the exit code of the work.
-[[noreturn]] void runChild(const Confinement& confinement, Report& report, const ConfinedWork& work,
-                           pid_t parent, int socket) {
+/// Begins a process of this program that ends with its parent: `sockets` are kSocket and the
+/// descriptors after it, all other inherited ones belong to the parent.
+void beginChild(pid_t parent, std::vector<int> sockets) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (getppid() != parent) _exit(kInternal);  // it ended before that
-    // Mesa and others print to 1 and 2; all other inherited descriptors belong to the parent.
-    if (socket != kSocket) dup2(socket, kSocket);
-    closefrom(kSocket + 1);
+    // Mesa and others print to 1 and 2.
+    const int count = static_cast<int>(sockets.size());
+    for (int& one : sockets) one = fcntl(one, F_DUPFD, kSocket + count);
+    for (int i = 0; i < count; ++i) dup2(sockets[static_cast<std::size_t>(i)], kSocket + i);
+    closefrom(kSocket + count);
     // Handlers run in the reverse order: Mesa's, which writes the rest of its shader cache, then
     // this one, and none that libraries registered before. Those would copy pages that are shared
     // with the parent, and a sanitizer's would stop all threads by calls that are refused here.
     std::atexit([] { _exit(exitStatus); });
+}
+
+worker::Layers closeIn(const Confinement& confinement) {
+    worker::SandboxOptions options;
+    options.readable = confinement.readable;
+    options.memoryBytes = confinement.flags.memoryMiB << 20U;
+    return worker::closeCommandLine(options);
+}
+
+/// Ends the process with the exit code of the work.
+[[noreturn]] void runChild(const Confinement& confinement, Report& report,
+                           const ConfinedWork& work) {
     exitStatus = runGuarded(
         [&] {
-            worker::SandboxOptions options;
-            options.readable = confinement.readable;
-            options.memoryBytes = confinement.flags.memoryMiB << 20U;
-            SentOutputs outputs(worker::closeCommandLine(options));
+            std::vector<int> helpers(static_cast<std::size_t>(confinement.helpers));
+            std::iota(helpers.begin(), helpers.end(), kSocket + 1);
+            SentOutputs outputs(closeIn(confinement), std::move(helpers));
             try {
                 return work(outputs);
             } catch (const std::bad_alloc&) {
@@ -198,12 +265,62 @@ Received writeOutputs(int socket, const Confinement& confinement) {
     std::exit(exitStatus);
 }
 
-/// Signals by which users and shells end programs.
-bool isRequest(int signal) {
-    for (const int one : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGQUIT})
-        if (signal == one) return true;
-    return false;
+/// Ends the process.
+[[noreturn]] void runHelper(const Confinement& confinement, const HelperWork& help, int index) {
+    exitStatus = kInternal;
+    try {
+        closeIn(confinement);
+        help(index, kSocket);
+        exitStatus = kDone;
+    } catch (const std::exception&) {
+        // The child does this work, too, and reports the same fault.
+    }
+    std::exit(exitStatus);
 }
+
+bool isRequest(int signal) {
+    return std::find(kRequests.begin(), kRequests.end(), signal) != kRequests.end();
+}
+
+/// The helpers of a child, as the parent sees them. Ends them with it.
+class Helpers {
+  public:
+    Helpers() = default;
+    ~Helpers() {
+        for (const pid_t one : processes_) kill(one, SIGKILL);
+        for (const pid_t one : processes_)
+            while (waitpid(one, nullptr, 0) < 0 && errno == EINTR) {
+            }
+    }
+    Helpers(const Helpers&) = delete;
+    Helpers& operator=(const Helpers&) = delete;
+
+    /// Begins helper number `index`.
+    void add(const Confinement& confinement, const HelperWork& help, int index, pid_t parent) {
+        auto ours = std::make_unique<Socket>();
+        Socket theirs;
+        makePair(*ours, theirs);
+        const pid_t process = startProcess();
+        if (process == 0) {
+            beginChild(parent, {theirs.fd});
+            runHelper(confinement, help, index);
+        }
+        processes_.push_back(process);
+        sockets_.push_back(std::move(ours));
+    }
+    /// The descriptors that the child reads by.
+    std::vector<int> descriptors() const {
+        std::vector<int> all;
+        for (const auto& one : sockets_) all.push_back(one->fd);
+        return all;
+    }
+    /// Leaves them to the child.
+    void closeSockets() { sockets_.clear(); }
+
+  private:
+    std::vector<pid_t> processes_;
+    std::vector<std::unique_ptr<Socket>> sockets_;
+};
 
 /// Ends this process as the child ended, or returns the exit code for its crash.
 int reportEnd(Report& report, int status, std::size_t files) {
@@ -235,25 +352,28 @@ void addConfinement(CLI::App& command, ConfinementFlags& flags) {
     command.get_option("--worker-memory")->group("Sandbox");
 }
 
-int confine(const Confinement& confinement, Report& report, const ConfinedWork& work) {
+int confine(const Confinement& confinement, Report& report, const ConfinedWork& work,
+            const HelperWork& help) {
     if (confinement.flags.isOff) {
         OwnOutputs outputs(confinement);
         return work(outputs);
     }
     std::cout.flush();
     std::cerr.flush();
-    Socket ours, theirs;
-    int ends[2];
-    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
-        throw std::runtime_error(std::string("no socket for a process: ") + std::strerror(errno));
-    ours.fd = ends[0];
-    theirs.fd = ends[1];
     const pid_t parent = getpid();
-    const pid_t child = fork();
-    if (child < 0)
-        throw std::runtime_error(std::string("cannot start a process: ") + std::strerror(errno));
-    if (child == 0) runChild(confinement, report, work, parent, theirs.fd);
+    std::optional<Helpers> helpers(std::in_place);
+    for (int i = 0; i < confinement.helpers; ++i) helpers->add(confinement, help, i, parent);
+    Socket ours, theirs;
+    makePair(ours, theirs);
+    const pid_t child = startProcess();
+    if (child == 0) {
+        std::vector<int> sockets = helpers->descriptors();
+        sockets.insert(sockets.begin(), theirs.fd);
+        beginChild(parent, std::move(sockets));
+        runChild(confinement, report, work);
+    }
     theirs.reset();
+    helpers->closeSockets();
     const Received received = writeOutputs(ours.fd, confinement);
     if (!received.isValid) kill(child, SIGKILL);
     ours.reset();
@@ -262,6 +382,7 @@ int confine(const Confinement& confinement, Report& report, const ConfinedWork& 
         if (errno != EINTR)
             throw std::runtime_error(std::string("cannot wait for a process: ") +
                                      std::strerror(errno));
+    helpers.reset();  // reportEnd() ends the process
     if (received.isValid) return reportEnd(report, status, received.files);
     report.fail(message<"worker.crashed/output">());
     return kInternal;

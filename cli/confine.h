@@ -26,6 +26,9 @@ struct Confinement {
     ConfinementFlags flags;
     std::vector<std::string> readable;  ///< folders that the child may read
     std::vector<std::string> outputs;   ///< paths it may write, see framePath
+    /// Processes beside the child that share its work, closed in as it is; none where the sandbox
+    /// is off.
+    int helpers = 0;
 };
 
 inline constexpr int kNoFrame = -1;
@@ -39,16 +42,23 @@ class Outputs {
     virtual void write(std::size_t output, std::string_view bytes, int frame = kNoFrame) = 0;
     /// Layers of the sandbox and their state; empty where it is off.
     virtual const worker::Layers& layers() const = 0;
+    /// Descriptors to read from the helpers by, in their order.
+    virtual const std::vector<int>& helpers() const = 0;
 };
 
 using ConfinedWork = std::function<int(Outputs& outputs)>;
+/// The work of helper number `index`, from 0. The child reads the bytes that it sends over
+/// `socket`. It prints nothing; its exceptions end the helper alone.
+using HelperWork = std::function<void(int index, int socket)>;
 
 /// Runs `work` closed in. The child writes the report, and this process ends with its exit code; it
 /// returns where the sandbox is off, or the child ended by a signal. A signal that ends the child
 /// is kInternal with the code worker.crashed (worker.killed for SIGKILL) and leaves no partial
 /// output; one that a user sends to end a program ends this one, too. Call it before other threads
 /// are started, and with all inputs read.
-int confine(const Confinement& confinement, Report& report, const ConfinedWork& work);
+/// Helpers end with the child, and all of them with this process.
+int confine(const Confinement& confinement, Report& report, const ConfinedWork& work,
+            const HelperWork& help = nullptr);
 
 /// Returns the path with its %d or %04d replaced by the frame's number; the path itself where it
 /// has none, or for kNoFrame.

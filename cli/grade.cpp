@@ -1,5 +1,3 @@
-#include <unistd.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -8,7 +6,6 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
-#include <mutex>
 #include <thread>
 
 #include "cli/command.h"
@@ -17,6 +14,7 @@
 #include "cli/grade_formats.h"
 #include "cli/grade_tables.h"
 #include "cli/messages.h"
+#include "cli/progress.h"
 #include "grade/rubric/rubric.h"
 #include "worker/pool.h"
 
@@ -34,37 +32,6 @@ struct Flags {
     double deadlineS = 60.0;
     std::size_t memoryMiB = 1024;
     bool printRubric = false;
-};
-
-/// Shows progress on stderr: a bar on a terminal, else a line for each tenth of the submissions.
-class Progress {
-  public:
-    void operator()(std::size_t done, std::size_t all) {
-        const std::lock_guard lock(mutex_);
-        const std::size_t percent = 100 * done / all;
-        const double secondsGone =
-            std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
-        const auto left = static_cast<long>(
-            secondsGone / static_cast<double>(done) * static_cast<double>(all - done) + 0.5);
-        char time[32];
-        std::snprintf(time, sizeof time, "%ld:%02ld left", left / 60, left % 60);
-        if (terminal_) {
-            std::string bar(percent / 4, '=');
-            bar.resize(25, ' ');
-            std::fprintf(stderr, "\r\033[Kgrading [%s] %zu/%zu  %s%s", bar.c_str(), done, all, time,
-                         done == all ? "\n" : "");
-        } else if (percent / 10 != tenth_) {
-            tenth_ = percent / 10;
-            std::fprintf(stderr, "grading %zu/%zu  %zu %%  %s\n", done, all, percent, time);
-        }
-        std::fflush(stderr);
-    }
-
-  private:
-    const bool terminal_ = ::isatty(STDERR_FILENO) != 0;
-    const std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
-    std::size_t tenth_ = 0;
-    std::mutex mutex_;
 };
 
 worker::PoolOptions poolOptions(const Flags& flags) {
@@ -208,7 +175,7 @@ int run(const Flags& flags, Report& report) {
     if (failed)
         throw OutputError(message<"output.unwritable/folder">(
             "path"_arg = uncut(options.resultsDir), "reason"_arg = failed.message()));
-    Progress progress;
+    Progress progress("grading");
     options.progress = [&](std::size_t done, std::size_t all) { progress(done, all); };
 
     std::signal(SIGPIPE, SIG_IGN);  // a worker that dies while it is spoken to

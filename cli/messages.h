@@ -189,6 +189,8 @@ inline constexpr MessageRow kCliMessages[] = {
      "the process that read the files crashed by {signal}; {written} outputs were written before. "
      "Please report the file",
      {"signal 6 (Aborted)", "0"}},
+    {"worker.crashed/helper",
+     "one of the processes that draw ended early; the others drew its frames"},
     {"worker.crashed/output", "the process that read the files sent no valid output"},
     {"worker.killed/command",
      "the process that read the files was ended by {signal}, from outside or by the system for "

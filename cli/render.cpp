@@ -80,9 +80,13 @@ void printMissing(const worker::Layers& layers) {
             std::cerr << "sandbox." << name << "=\"" << state << "\"" << std::endl;
 }
 
-int draw(const Flags& flags, const render::Job& job, Report& report, Outputs& outputs) {
+void prepareHeap(const Flags& flags) {
     if (flags.confinement.memoryMiB == 0 || flags.confinement.memoryMiB >= 1'024)
         growHeap(kHeapBytes);
+}
+
+int draw(const Flags& flags, const render::Job& job, Report& report, Outputs& outputs) {
+    prepareHeap(flags);
     Deadline deadline(flags.deadlineS, report, job.name);
     render::Picture picture;
     if (flags.animation.sheet) {
@@ -90,13 +94,17 @@ int draw(const Flags& flags, const render::Job& job, Report& report, Outputs& ou
         std::optional<Schedule> moments;
         if (scene.playS || flags.animation.fps)
             moments = schedule(flags.animation, scene, job.options.timeS);
-        picture = renderSheet(job, *flags.animation.sheet, moments, outputs, flags.gl);
+        picture = renderSheet(job, *flags.animation.sheet, moments, outputs, flags.gl, report);
         report.set("frames", flags.animation.sheet->count());
     } else if (flags.animation.isAnyGiven()) {
         const Schedule moments = schedule(flags.animation, render::inspect(job), job.options.timeS);
-        picture = renderAnimation(job, moments, flags.output, outputs, flags.gl);
+        const Share share =
+            outputs.helpers().empty() ? Share{} : shareOf(0, flags.animation, moments.frames);
+        shareProcessor(share.count);
+        picture = renderAnimation(job, moments, share, flags.output, outputs, flags.gl, report);
         report.set("frames", moments.frames);
         report.set("fps", moments.fps);
+        report.set("processes", share.count);
     } else {
         picture = render::Renderer(flags.gl).render(job);
         deadline.release();
@@ -122,6 +130,15 @@ int draw(const Flags& flags, const render::Job& job, Report& report, Outputs& ou
     return hasErrors ? kInputFault : kDone;
 }
 
+/// Draws a share of an animation in a helper.
+void help(const Flags& flags, const render::Job& job, int index, int socket) {
+    prepareHeap(flags);
+    const Schedule moments = schedule(flags.animation, render::inspect(job), job.options.timeS);
+    const Share share = shareOf(index + 1, flags.animation, moments.frames);
+    shareProcessor(share.count);
+    helpAnimation(job, moments, share, socket, flags.gl);
+}
+
 /// Whether the name asks for a format that has no still images.
 bool isVideoName(const std::string& path) {
     const std::string ending = fileEnding(path);
@@ -145,10 +162,13 @@ int run(Flags flags, Report& report) {
     render::Job job = openSource(flags.scene, flags.assets, flags.strict);
     job.options = options;
     report.setInput(job.name);
-    const Confinement confinement{
+    Confinement confinement{
         flags.confinement, {assetFolder(flags.scene, flags.assets)}, {flags.output}};
-    return confine(confinement, report,
-                   [&](Outputs& outputs) { return draw(flags, job, report, outputs); });
+    if (flags.animation.isAnyGiven() && !flags.animation.sheet)
+        confinement.helpers = drawingProcesses(flags.animation) - 1;
+    return confine(
+        confinement, report, [&](Outputs& outputs) { return draw(flags, job, report, outputs); },
+        [&](int index, int socket) { help(flags, job, index, socket); });
 }
 
 }  // namespace
@@ -188,6 +208,9 @@ void addRender(CLI::App& root, Action& action) {
             "all sides; --width and --height are those of each")
         ->type_name("COLUMNSxROWS")
         ->group("Animation");
+    CLI::Option* jobs = command->add_option(
+        "--jobs", flags->animation.jobs,
+        "processes that draw an animation; default one a core; 1 where the sandbox is off");
     takesNumber(command->add_option("--deadline", flags->deadlineS,
                                     "ends with limit.deadline after that many s; 0: no deadline"),
                 0.0, 86'400.0);
@@ -195,6 +218,7 @@ void addRender(CLI::App& root, Action& action) {
     addConfinement(*command, flags->confinement);
     takesNumber(frames->group("Animation"), 1, 3600);
     takesNumber(fps->group("Animation"), 0.01, 1000.0);
+    takesNumber(jobs->group("Animation"), 1, kMaxDrawingProcesses);
     for (const render::OptionSpec& spec : render::optionSpecs())
         command
             ->add_option_function<std::string>(

@@ -4,6 +4,7 @@
 #include "cli/schema.h"
 #include "core/text.h"
 #include "grade/rubric/metrics.h"
+#include "image/animation.h"
 #include "image/format.h"
 #include "render/options.h"
 

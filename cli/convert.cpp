@@ -111,6 +111,9 @@ int run(const Flags& flags, Report& report) {
     const bool isXml = ending == "xml" || (flags.output == "-" && !isMesh);
     if (report.json() && flags.output == "-")
         throw UsageError(message<"usage/output-twice">("output"_arg = "-"));
+    std::error_code none;  // of files that are not there
+    if (std::filesystem::equivalent(flags.input, flags.output, none))
+        throw UsageError(message<"usage/convert-same">("path"_arg = flags.output));
     if (!flags.form.empty() && !isXml) throw UsageError(message<"usage/convert-to">());
     const auto format = flags.output == "-" ? std::optional(generator::io::Format::text3d)
                                             : generator::io::formatOf(flags.output);

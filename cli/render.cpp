@@ -36,6 +36,7 @@ struct Flags {
 render::PictureOptions pictureOptions(const Flags& flags) {
     render::PictureOptions options;
     const std::string ending = fileEnding(flags.output);
+    const bool isAnimation = flags.animation.isAnyGiven() && !flags.animation.sheet;
     bool known = flags.output == "-" || flags.output.rfind("/dev/", 0) == 0;
     for (const image::FormatSpec& format : image::kFormats)
         for (const std::string_view one : split(format.endings))
@@ -43,18 +44,22 @@ render::PictureOptions pictureOptions(const Flags& flags) {
                 render::applyOption(options, "format", std::string(format.name));
                 known = true;
             }
+    std::string animations;
     for (const image::AnimationSpec& format : image::kAnimations)
-        for (const std::string_view word : split(format.endings))
-            known =
-                known || (flags.animation.isAnyGiven() && !flags.animation.sheet && ending == word);
+        for (const std::string_view word : split(format.endings)) {
+            known = known || (isAnimation && ending == word);
+            animations.append(animations.empty() ? "." : ", .").append(word);
+        }
     for (const auto& [name, value] : flags.picture) {
         render::applyOption(options, name, value);
         known = known || name == "format";
     }
     if (!known)
         throw UsageError(message<"usage/format">(
-            "path"_arg = flags.output, "known"_arg = uncut(image::listFormats(
-                                           &image::FormatSpec::endings, ", ", " or ", "."))));
+            "path"_arg = flags.output,
+            "known"_arg = uncut(
+                isAnimation ? animations
+                            : image::listFormats(&image::FormatSpec::endings, ", ", " or ", "."))));
     return options;
 }
 

@@ -44,6 +44,12 @@ const FileFormat* recognise(std::string_view bytes, const std::string& name) {
     return fileEnding(name) == "tga" ? &kTga : nullptr;
 }
 
+bool isWebPage(std::string_view bytes) {
+    for (const std::string_view start : {"<!DOCTYPE html", "<html"})
+        if (sameWord(bytes.substr(0, start.size()), start)) return true;
+    return false;
+}
+
 Error tooLarge(const std::string& name, const std::string& size, const Location& where) {
     return Error(message<"limit.texture">("name"_arg = uncut(name), "size"_arg = size,
                                           "max"_arg = kMaxTexturePixels / 1'000'000),
@@ -60,6 +66,10 @@ Decoded readFile(std::string_view bytes, const std::string& name, const Location
             where);
     };
     const FileFormat* format = recognise(bytes, name);
+    if (bytes.starts_with("version https://git-lfs"))
+        throw Error(message<"image.unreadable/lfs">("name"_arg = uncut(name)), where);
+    if (format == nullptr && isWebPage(bytes))
+        throw Error(message<"image.unreadable/page">("name"_arg = uncut(name)), where);
     if (format == nullptr)
         throw Error(bytes.empty() ? message<"image.unreadable/empty">("name"_arg = uncut(name))
                                   : message<"image.unreadable/format">("name"_arg = uncut(name)),

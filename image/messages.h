@@ -13,6 +13,14 @@ inline constexpr MessageRow kImageMessages[] = {
      "cannot read image \"{name}\": unknown format; expected PNG, JPEG, WebP, GIF, BMP, TGA, PNM, "
      "Radiance HDR, OpenEXR or TIFF. Save the image as PNG",
      {"brick.svg"}},
+    {"image.unreadable/lfs",
+     "cannot read image \"{name}\": it is a pointer of Git LFS, not the image; run git lfs pull "
+     "and "
+     "send the image",
+     {"brick.png"}},
+    {"image.unreadable/page",
+     "cannot read image \"{name}\": it is a web page, not the image; save the image itself",
+     {"brick.jpg"}},
     {"limit.texture",
      "image \"{name}\" is {size}; expected at most {max} million pixels. Scale the image down",
      {"brick.png", "20000 x 20000 px", "64"}},

@@ -3,6 +3,7 @@
 
 #include "generator/io/writer.h"
 #include "interchange/messages.h"
+#include "interchange/placement.h"
 #include "interchange/subject.h"
 #include "interchange/write.h"
 #include "scene/animation.h"
@@ -71,6 +72,8 @@ class ObjWriter {
         const double det = glm::dot(linear[0], cofactor[0]);
         for (const std::uint32_t index : used) {
             const glm::vec3 p(worldFromObject * glm::dvec4(glm::dvec3(mesh.positions[index]), 1.0));
+            if (!(glm::length(glm::dvec3(p)) <= kMaxFloat))
+                throw Error(message<"limit.model/size">("max"_arg = kMaxFloat));
             if (look.isColored && !mesh.colors.empty()) {
                 const glm::vec3 c = glm::vec3(mesh.colors[index]) / 255.0F;
                 out_.row({p.x, p.y, p.z, c.r, c.g, c.b}, "v");

@@ -9,6 +9,9 @@
 
 namespace farol::interchange {
 
+/// Largest place or factor that models are written with: floats hold it.
+inline constexpr double kMaxFloat = 3.4e38;
+
 /// A node of glTF: parentFromNode = translation * rotation * scale. At most one of its parts
 /// follows the time.
 struct Placement {

@@ -36,7 +36,7 @@ class LabelReader {
 
   private:
     void readLine(std::string_view line) {
-        line = line.substr(0, std::min(line.find('#'), line.find("//")));
+        line = line.substr(0, commentStart(line));
         bool unknown = false;  // a word of this line has no role: "Length: 2"
         bool words = false;
         std::size_t numbers = 0;

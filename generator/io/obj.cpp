@@ -34,7 +34,7 @@ class Reader {
 
     void readLine(std::string_view line, int number) {
         line_ = number;
-        line = line.substr(0, line.find('#'));
+        line = line.substr(0, commentStart(line, false));
         std::string_view keyword = nextObjWord(line);
         if (keyword.empty()) return;
         if (keyword == "V" || keyword == "F") keyword = keyword == "V" ? "v" : "f";

@@ -64,6 +64,14 @@ glm::dvec3 placeAt(const NumberRows& rows, const Row& row, const double* v) {
     return place;
 }
 
+std::size_t commentStart(std::string_view line, bool slashesToo) {
+    std::size_t at = line.find('#');
+    while (at != std::string_view::npos && at >= 2 && line.substr(at - 2, 2) == "1." &&
+           at + 1 < line.size() && isWordChar(line[at + 1]))
+        at = line.find('#', at + 1);
+    return slashesToo ? std::min(at, line.find("//")) : at;
+}
+
 std::size_t tokenEnd(std::string_view text, std::size_t at) {
     std::size_t stop = at;
     while (stop < text.size() && !isSeparator(text[stop])) ++stop;
@@ -92,7 +100,7 @@ NumberRows parseRows(std::string_view bytes, const std::string& file, int line, 
         const std::size_t end = std::min(bytes.find('\n'), bytes.size());
         std::string_view text = bytes.substr(0, end);
         bytes.remove_prefix(std::min(end + 1, bytes.size()));
-        const std::size_t comment = std::min(text.find('#'), text.find("//"));
+        const std::size_t comment = commentStart(text);
         const bool commented = comment != std::string_view::npos;
         if (commented) text = text.substr(0, comment);
         const auto first = static_cast<std::uint32_t>(out.values.size());

@@ -41,6 +41,9 @@ NumberRows parseRows(std::string_view bytes, const std::string& file, int line =
 /// A number as parseRows reads it; nothing where the token is none. Throws mesh.number.
 std::optional<double> numberOf(std::string_view token, const Location& where);
 
+/// Returns where the comment of a line begins, or npos. The # of "1.#QNAN" begins none.
+std::size_t commentStart(std::string_view line, bool slashesToo = true);
+
 /// True for blanks, commas, semicolons and brackets.
 bool isSeparator(char c);
 /// Where the token ends that begins at `at`.

@@ -64,7 +64,7 @@ bool isHomeMadeObj(const MeshText& text) {
         const std::size_t end = std::min(rest.find('\n'), rest.size());
         std::string_view line = rest.substr(0, end);
         rest.remove_prefix(std::min(end + 1, rest.size()));
-        line = line.substr(0, std::min(line.find('#'), line.find('\r')));
+        line = line.substr(0, std::min(commentStart(line, false), line.find('\r')));
         const std::size_t at = line.find_first_not_of(" \t");
         if (at == std::string_view::npos || at + 1 >= line.size()) continue;
         if (line[at + 1] != ' ' && line[at + 1] != '\t') continue;

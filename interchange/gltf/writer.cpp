@@ -18,6 +18,9 @@ constexpr std::size_t kMaxSamples = 1'000'000;
 
 json nodeOf(const Placement& placement) {
     json node = json::object();
+    if (!(glm::length(placement.translation) <= kMaxFloat &&
+          glm::length(placement.scale) <= kMaxFloat))
+        throw Error(message<"limit.model/size">("max"_arg = kMaxFloat));
     if (placement.translation != glm::dvec3(0.0))
         node["translation"] = toJson(placement.translation);
     if (placement.rotation != glm::dquat(1.0, 0.0, 0.0, 0.0))

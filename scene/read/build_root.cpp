@@ -16,6 +16,16 @@ namespace {
 
 constexpr std::size_t kMaxTitleBytes = 200;  ///< bytes
 
+/// `<file="a.3d"/>`: the first known element that has the attribute, as it is written; else
+/// nothing.
+std::string holderOf(std::string_view attribute, std::string_view known) {
+    for (const std::string_view name : split(known))
+        for (const AttributeSpec& row : elementSpec(name).attributes)
+            if (sameWord(row.name, attribute))
+                return std::string(name) + ' ' + std::string(row.name) + "=\"...\"";
+    return "";
+}
+
 }  // namespace
 
 SceneBuilder::SceneBuilder(const Document& document, ReadSession& session)
@@ -54,17 +64,27 @@ void SceneBuilder::unknownChild(pugi::xml_node child, const ElementSpec& parent)
         if (isAmong(parent.children, one.name)) known.emplace_back(one.name);
     }
     const char* const inside = child.parent().name();
+    // A child of the parent that may hold it, or the root where there is no group round it.
+    std::size_t fewestInside = std::string::npos;
+    for (const ElementSpec& one : elementSpecs())
+        if (isAmong(parent.children, one.name) && findChild(one, name) != nullptr &&
+            one.children.size() < fewestInside) {
+            belongs = one.name;
+            fewestInside = one.children.size();
+        }
+    const pugi::xml_node root = child.root().first_child();
+    if (belongs == "group" && child.parent().parent() == root) belongs = root.name();
     if (!belongs.empty()) {
         findings().warn(message<"scene.misplaced">("element"_arg = name, "parent"_arg = inside,
                                                    "expected"_arg = belongs),
                         at(child));
         return;
     }
-    findings().warn(
-        message<"scene.unknown-element">(
-            "element"_arg = name, "parent"_arg = inside,
-            "suggestion"_arg = findings().crowded() ? "" : didYouMean(std::string(name), known)),
-        at(child));
+    std::string suggestion = findings().crowded() ? "" : didYouMean(std::string(name), known);
+    if (suggestion.empty()) suggestion = holderOf(name, parent.children);
+    findings().warn(message<"scene.unknown-element">("element"_arg = name, "parent"_arg = inside,
+                                                     "suggestion"_arg = uncut(suggestion)),
+                    at(child));
 }
 
 /// Reports a document of another language; other findings about it would mislead.

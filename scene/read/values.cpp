@@ -178,6 +178,8 @@ class AttributeReader {
                 return std::nullopt;
             }
             value = leading.value;
+            const bool isOpacity = row.name == "opacity" || row.name == "A";
+            if (isOpacity && trimmed(entry.text).ends_with('%')) value *= 0.01;
         }
         const double whole = row.kind == Kind::integer ? std::trunc(value) : value;
         if (!exact.problem.empty() || whole != value)

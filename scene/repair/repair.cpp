@@ -174,6 +174,33 @@ std::string_view kindOfBinary(std::string_view bytes) {
     return "";
 }
 
+/// Blanks the lines of merge conflicts but for the first version of each; offsets stay. Warns.
+std::string withoutConflicts(std::string_view source, const LineIndex& lines, Findings& findings) {
+    std::string out(source);
+    enum class Part { none, first, other } part = Part::none;
+    for (std::size_t begin = 0; begin < source.size();) {
+        const std::size_t end = std::min(source.find('\n', begin), source.size());
+        const std::string_view line = source.substr(begin, end - begin);
+        const Part before = part;
+        if (line.starts_with("<<<<<<<") && part == Part::none &&
+            source.find("\n=======", end) != std::string_view::npos) {
+            findings.warn(message<"xml.conflict">("line"_arg = lines.at(begin).line + 1),
+                          lines.at(begin));
+            part = Part::first;
+        } else if (part == Part::first &&
+                   (line.starts_with("|||||||") || line.starts_with("======="))) {
+            part = Part::other;
+        } else if (part == Part::other && line.starts_with(">>>>>>>")) {
+            part = Part::none;
+        }
+        if (part != before || part == Part::other)
+            std::fill(out.begin() + static_cast<std::ptrdiff_t>(begin),
+                      out.begin() + static_cast<std::ptrdiff_t>(end), ' ');
+        begin = end + 1;
+    }
+    return out;
+}
+
 }  // namespace
 
 Repaired repair(std::string_view source, const LineIndex& lines, const ReadLimits& limits,
@@ -190,7 +217,10 @@ Repaired repair(std::string_view source, const LineIndex& lines, const ReadLimit
         nul != std::string_view::npos && !kind.empty())
         throw Error(message<"xml.character/kind">("kind"_arg = kind), lines.at(0));
     if (nul != std::string_view::npos) throw Error(message<"xml.character/nul">(), lines.at(nul));
-    return RepairScanner(source, lines, limits, findings).run();
+    if (source.find("<<<<<<<") == std::string_view::npos)
+        return RepairScanner(source, lines, limits, findings).run();
+    const std::string merged = withoutConflicts(source, lines, findings);
+    return RepairScanner(merged, lines, limits, findings).run();
 }
 
 }  // namespace farol::scene

@@ -31,6 +31,9 @@ bool declaresLatin1(std::string_view text) {
 /// Returns the fix for an element that was left open.
 Message closing(std::string_view name) {
     for (const ElementSpec& one : elementSpecs())
+        if (!one.children.empty() && one.children != "point" && sameWord(one.name, name))
+            return message<"part.close-element">("element"_arg = name);
+    for (const ElementSpec& one : elementSpecs())
         if (one.children.empty() && (sameWord(one.name, name) || isAmong(one.aliases, name)) &&
             !sameWord(name, "title") && !sameWord(name, "description"))
             return message<"part.close-tag">();
@@ -57,10 +60,16 @@ Repaired RepairScanner::run() {
         if (!ended()) markup();
     }
     // One finding, for the innermost: its ancestors are open for the same reason.
-    if (!open_.empty() && !truncated_)
-        findings_.error(message<"xml.unclosed">("element"_arg = open_.back().name,
-                                                "fix"_arg = closing(open_.back().name)),
-                        where(open_.back().offset));
+    if (!open_.empty() && !truncated_) {
+        const Open& inner = open_.back();
+        findings_.error(open_.size() > 1
+                            ? message<"xml.unclosed/cut">("element"_arg = inner.name,
+                                                          "fix"_arg = closing(inner.name),
+                                                          "outer"_arg = open_.front().name)
+                            : message<"xml.unclosed">("element"_arg = inner.name,
+                                                      "fix"_arg = closing(inner.name)),
+                        where(inner.offset));
+    }
     while (!open_.empty()) pop();
     if (roots_.empty()) findings_.error(message<"xml.no-root">(), where(0));
     warnOfRoots();
@@ -75,10 +84,13 @@ void RepairScanner::warnOfRoots() {
     if (chosen == roots_.end()) chosen = roots_.begin();
     for (auto root = roots_.begin(); root != roots_.end(); ++root) {
         if (root == chosen) continue;
-        findings_.warn(
-            message<"xml.extra-root">("element"_arg = root->name, "root"_arg = chosen->name,
-                                      "line"_arg = where(chosen->offset).line),
-            where(root->offset));
+        findings_.warn(message<"xml.extra-root">(
+                           "element"_arg = root->name, "root"_arg = chosen->name,
+                           "line"_arg = where(chosen->offset).line,
+                           "inside"_arg = root->offset > chosen->offset && !isSceneRoot(root->name)
+                                              ? chosen->name
+                                              : std::string_view()),
+                       where(root->offset));
     }
 }
 

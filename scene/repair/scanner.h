@@ -28,7 +28,7 @@ class RepairScanner {
     void endTag();
     void startTag();
     bool attribute(bool glued);
-    std::pair<std::size_t, std::size_t> attributeValue();
+    std::pair<std::size_t, std::size_t> attributeValue(std::string_view key);
     std::pair<std::size_t, std::size_t> bareValue();
     void push(std::string_view name, std::size_t offset);
     void warnOfRoots();

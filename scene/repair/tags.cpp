@@ -93,7 +93,7 @@ bool RepairScanner::attribute(bool glued) {
     if (glued) findings_.warn(message<"xml.blank">("name"_arg = key), where(nameAt));
     ++at_;
     skipBlanks();
-    const auto [begin, end] = attributeValue();
+    const auto [begin, end] = attributeValue(key);
     literal(" ");
     copy(nameAt, nameEnd);
     literal("=\"");
@@ -102,7 +102,7 @@ bool RepairScanner::attribute(bool glued) {
     return true;
 }
 
-std::pair<std::size_t, std::size_t> RepairScanner::attributeValue() {
+std::pair<std::size_t, std::size_t> RepairScanner::attributeValue(std::string_view key) {
     const std::size_t curly = curlyQuote(at_);
     if (peek() != '"' && peek() != '\'' && curly == 0) return bareValue();
     const std::size_t open = at_;
@@ -119,7 +119,9 @@ std::pair<std::size_t, std::size_t> RepairScanner::attributeValue() {
         if (curly != 0) findings_.warn(message<"xml.quote-style">(), where(open));
         return {begin, end};
     }
-    findings_.error(message<"xml.quote">(), where(open));
+    findings_.error(message<"xml.quote">("name"_arg = key,
+                                         "quote"_arg = std::string(1, curly != 0 ? '"' : quote)),
+                    where(open));
     return bareValue();
 }
 

@@ -51,6 +51,15 @@ TEST_CASE("a mesh file is converted to other mesh formats") {
     CHECK(readFile("back.obj") == readFile("torus.obj"));
 }
 
+TEST_CASE("a file is not converted onto itself") {
+    freshFolder();
+    writeFile("scene.xml", kScene);
+    const Outcome outcome = run("convert scene.xml ./scene.xml");
+    CHECK(outcome.status == 2);
+    CHECK_THAT(outcome.err, Catch::Contains("another name for OUT"));
+    CHECK(readFile("scene.xml") == kScene);
+}
+
 TEST_CASE("wrong names and forms of a conversion are refused") {
     freshFolder();
     writeFile("scene.xml", kScene);

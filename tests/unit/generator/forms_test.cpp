@@ -157,6 +157,9 @@ std::vector<FormRow> formRows() {
          "6\n-1 0 -1\n-nan(ind) -nan(ind) -nan(ind)\n0 0\n" +
              eachVertex("P\n0 1 0\nU\n").substr(18),
          true, "mesh.normal"},
+        {"windows nan.3d", "one count",
+         "6\n-1 0 -1\n-1.#IND 1.#QNAN -1.#IND00\n0 0\n" + eachVertex("P\n0 1 0\nU\n").substr(18),
+         true, "mesh.normal"},
         {"blocks.3d", "blocks", kCorners + "\n" + kTriangles},
         {"from 1 blocks.3d", "blocks", kCorners + "\n1 2 3\n1 3 4\n"},
         {"soup.3d", "soup", kSoup},

@@ -199,6 +199,12 @@ TEST_CASE("other formats are refused with the list of those that are read") {
               std::string::npos);
 }
 
+TEST_CASE("a pointer of Git LFS and a web page are named as what they are") {
+    CHECK(refusal("version https://git-lfs.github.com/spec/v1\noid sha256:4d\n", "a.jpg")
+              .find("git lfs pull") != std::string::npos);
+    CHECK(refusal("<!doctype html><html>", "a.jpg").find("a web page") != std::string::npos);
+}
+
 TEST_CASE("a file that is cut off anywhere is an error, a warning or the whole image") {
     int files = 0, prefixes = 0;
     for (const auto& entry : std::filesystem::directory_iterator(

@@ -317,6 +317,22 @@ TEST_CASE("models over their bounds are refused") {
     CHECK_THROWS_AS(writeObj(jobOf(xml), "x", 1000), Error);
 }
 
+TEST_CASE("scales beyond what a float holds are refused, not written as infinity") {
+    const std::string scale = "<scale x=\"1e18\" y=\"1\" z=\"1\"/>";
+    const std::string xml =
+        "<world><group><transform>" + scale + scale + scale +
+        "</transform><models><model command=\"box 1\"/></models></group></world>";
+    for (const bool isGlb : {true, false}) {
+        try {
+            isGlb ? writeGlb(jobOf(xml), 1 << 20) : writeObj(jobOf(xml), "x", 1 << 20);
+            FAIL("no error");
+        } catch (const Error& error) {
+            CHECK(error.code() == "limit.model");
+            CHECK_THAT(error.what(), Catch::Contains("3.4e+38"));
+        }
+    }
+}
+
 TEST_CASE("names of any bytes make a valid document") {
     const WrittenScene written =
         glb("<world><group name=\"\xff\xfe&quot;\"><models><model file=\"box_1.3d\" "

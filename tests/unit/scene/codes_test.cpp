@@ -207,6 +207,8 @@ TEST_CASE("oddities of scenes are reported") {
         {transform("<rotate time=\"^0\" x=\"1\"/>"), false, "scene.range"},
         {transform("<translate time=\"^0\"><point/></translate>"), false, "scene.range"},
         {"<world/>\n^<world/>", false, "xml.extra-root"},
+        {"<world>\n^<<<<<<< HEAD\n<group/>\n=======\n<group\n>>>>>>> b\n</world>", false,
+         "xml.conflict"},
         {"^<!DOCTYPE world><world/>", false, "xml.doctype"},
         {"^<group><model file=\"a\"/></group>", false, "scene.root"},
         {model("^<color R=\"255\"/>"), false, "scene.misplaced"},
@@ -325,6 +327,22 @@ TEST_CASE("unknown names are reported with the nearest known one") {
     CHECK_THAT(message(light("type=\"pont\""), "scene.value"), Catch::Contains("\"point\""));
     CHECK_THAT(message("<wrold/>", "scene.root"), Catch::Contains("<world>"));
     CHECK_THAT(message(world("<point/>"), "scene.misplaced"), Catch::Contains("<translate>"));
+    CHECK_THAT(message(world("<group><models><color/></models></group>"), "scene.misplaced"),
+               Catch::Contains("in <model>"));
+    CHECK_THAT(message(world("<camera><lights/></camera>"), "scene.misplaced"),
+               Catch::Contains("in <world>"));
+    CHECK_THAT(message(world("<group><camera><lights/></camera></group>"), "scene.misplaced"),
+               Catch::Contains("in <world>"));
+    CHECK_THAT(
+        message(world("<group><models><file=\"a.3d\"/></models></group>"), "scene.unknown-element"),
+        Catch::Contains("<model file=\"...\">"));
+    CHECK_THAT(message("<world/><group/>", "xml.extra-root"), Catch::Contains("before </world>"));
+    CHECK_THAT(message("<group/><world/>", "xml.extra-root"), !Catch::Contains("before"));
+    CHECK_THAT(message("<world><group name=\"a></group></world>", "xml.quote"),
+               Catch::Contains("\"name\"") && Catch::Contains("write \" at"));
+    CHECK_THAT(message("<world><group><models><model><color><diffuse R=\"1\"/>", "xml.unclosed"),
+               Catch::Contains("cut off") && Catch::Contains("write </color>"));
+    CHECK_THAT(message("<world><group/>", "xml.unclosed"), !Catch::Contains("cut off"));
     CHECK_THAT(message(transform("<translate x=\"1,5\"/>"), "scene.number"),
                Catch::Contains("1.5"));
     CHECK_THAT(message(transform("<translate x=\"1 y=\"2\"/>"), "scene.number"),

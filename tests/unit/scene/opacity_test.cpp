@@ -27,6 +27,8 @@ TEST_CASE("opacity by an attribute, a colour, and a name") {
     const std::vector<Row> rows{
         {model(""), ofModel, 1},
         {model("opacity=\"0.25\""), ofModel, 0.25},
+        {model("opacity=\"50%\""), ofModel, 0.5},
+        {model("", "<color><diffuse R=\"9\" A=\"50%\"/></color>"), ofMaterial, 0.5},
         {model("diffuse=\"ice\""), ofMaterial, double{0.4F}},
         {model("diffuse=\"red\" ambient=\"ice\""), ofMaterial, 1},
         {model("", "<color><diffuse R=\"9\"/></color>"), ofMaterial, 1},

@@ -321,6 +321,19 @@ TEST_CASE("a document type without definitions is ignored, one with them refused
     CHECK_FALSE(tryRead("<!DOCTYPE world [<!ENTITY a \"b\">]>" + model("")).scene);
 }
 
+TEST_CASE("of a merge conflict the first version is read, at its own lines") {
+    const std::string xml =
+        "<world>\n<<<<<<< HEAD\n<group name=\"ours\"/>\n||||||| base\n<group name=\"base\">\n"
+        "=======\n<group name=\"theirs\">\n>>>>>>> feature\n<grop/>\n</world>";
+    const Outcome outcome = tryRead(xml);
+    INFO(outcome.text());
+    REQUIRE(outcome.scene);
+    REQUIRE(outcome.scene->groups.size() == 1);
+    CHECK(outcome.scene->groups[0].name == "ours");
+    CHECK(finding(outcome, "xml.conflict").where.line == 2);
+    CHECK(finding(outcome, "scene.unknown-element").where.line == 9);
+}
+
 TEST_CASE("with leaveOut an unclosed element ends where its parent ends") {
     const std::string xml =
         "<world><group><transform><translate x=\"1\"><rotate angle=\"9\" y=\"1\"/>"

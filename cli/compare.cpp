@@ -136,9 +136,9 @@ int run(const Flags& flags, Report& report) {
 
 void addCompare(CLI::App& root, Action& action) {
     CLI::App* command =
-        root.add_subcommand("compare", "Says how two pictures of one size, or two meshes, differ");
+        root.add_subcommand("compare", "Compares two images of one size, or two meshes");
     const auto flags = std::make_shared<Flags>();
-    command->add_option("A", flags->first, "a picture file, or a mesh file")
+    command->add_option("A", flags->first, "an image file, or a mesh file")
         ->type_name("")
         ->required();
     command->add_option("B", flags->second, "the same to compare with; of a mesh the expected one")
@@ -149,7 +149,7 @@ void addCompare(CLI::App& root, Action& action) {
         ->type_name("CALL");
     command
         ->add_option("--crop", flags->crop,
-                     "px from the top left: cuts each picture that is not WxH yet; auto: cuts "
+                     "px from the top left: cuts each image that is not WxH yet; auto: cuts "
                      "the frame and the title bar off a screenshot")
         ->type_name("WxH+X+Y|auto");
     command->add_option("--mask", flags->masks, "px: a part that does not count (repeatable)")

@@ -154,7 +154,7 @@ void addGenerate(CLI::App& root, Action& action) {
     command->description(std::string("Writes the mesh of a shape: ") + kUsageLine);
     command
         ->add_option("--uv", flags->uv,
-                     "texture coordinates: a whole picture a face, or one picture "
+                     "texture coordinates: a whole image a face, or one image "
                      "around the shape, or as the 2017 engine; default face")
         ->type_name("LAYOUT")
         ->check(CLI::IsMember({"face", "atlas", "2017"}));

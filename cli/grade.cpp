@@ -233,10 +233,9 @@ void addGrade(CLI::App& root, Action& action) {
                      "folder with an entry for each student, or the .zip of the class")
         ->type_name("");
     command
-        ->add_option(
-            "--reference", flags->reference,
-            "a scene, a picture, or a folder of them: a task each, found by its name; none "
-            "where the rubric has requirements alone")
+        ->add_option("--reference", flags->reference,
+                     "a scene, an image, or a folder of them: a task each, found by its name; none "
+                     "where the rubric has requirements alone")
         ->type_name("REF");
     command->add_option("-o,--output", flags->output, "folder for the reports; a run goes on in it")
         ->type_name("DIR");

@@ -109,7 +109,7 @@ inline constexpr MessageRow kCliMessages[] = {
      {"--width requires an argument", "farol render"}},
     {"usage/assets", "no folder \"{path}\" for --assets; give an existing folder", {"files"}},
     {"usage/compare",
-     "an argument is missing; expected two pictures, two mesh files, or a mesh file and --shape"},
+     "an argument is missing; expected two images, two mesh files, or a mesh file and --shape"},
     {"usage/compare-mesh",
      "a mesh file is compared with one other mesh; expected a second mesh file, or --shape CALL"},
     {"usage/compare-png",

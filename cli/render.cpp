@@ -187,7 +187,7 @@ void addRender(CLI::App& root, Action& action) {
     command
         ->add_option(
             "-o,--output", flags->output,
-            "the picture: " + image::listFormats(&image::FormatSpec::endings, " ", " ", ".") +
+            "the image: " + image::listFormats(&image::FormatSpec::endings, " ", " ", ".") +
                 ", - for stdout")
         ->type_name("FILE")
         ->required();
@@ -234,7 +234,7 @@ void addRender(CLI::App& root, Action& action) {
                 spec.help)
             ->type_name(spec.range)
             ->take_last()
-            ->group("Picture");
+            ->group("Image");
     command->callback(
         [&action, flags] { action = [flags](Report& report) { return run(*flags, report); }; });
 }

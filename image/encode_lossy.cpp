@@ -73,7 +73,7 @@ std::string encodeWebp(const Image& image, int quality) {
     const std::size_t size = WebPEncodeRGBA(image.pixels.data(), image.width, image.height,
                                             image.width * 4, static_cast<float>(quality), &bytes);
     const std::unique_ptr<std::uint8_t, decltype(&WebPFree)> owner(bytes, &WebPFree);
-    if (size == 0) throw std::runtime_error("libwebp cannot encode this picture");
+    if (size == 0) throw std::runtime_error("libwebp cannot encode this image");
     return {reinterpret_cast<const char*>(bytes), size};
 }
 

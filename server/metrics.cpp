@@ -99,7 +99,7 @@ std::string Metrics::text(const worker::BackendState& backend, PictureCache::Cou
     }
     head(out, "farol_request_duration_seconds", "histogram", "Time to answer a request.");
     write(out, "farol_request_duration_seconds", "", duration_);
-    head(out, "farol_stage_duration_seconds", "histogram", "Time of the stages of a picture.");
+    head(out, "farol_stage_duration_seconds", "histogram", "Time of the stages of an image.");
     for (const auto& [stage, histogram] : stages_)
         write(out, "farol_stage_duration_seconds", "stage=" + quoted(stage), histogram);
     head(out, "farol_queue_depth", "gauge", "Jobs that wait for a worker.");
@@ -116,7 +116,7 @@ std::string Metrics::text(const worker::BackendState& backend, PictureCache::Cou
              found == backend.restarts.end() ? 0.0 : static_cast<double>(found->second));
     }
     head(out, "farol_coalesced_requests_total", "counter",
-         "Pictures answered by one that was being drawn.");
+         "Images answered by one that was being drawn.");
     line(out, "farol_coalesced_requests_total", static_cast<double>(backend.coalesced));
     head(out, "farol_retried_jobs_total", "counter",
          "Jobs begun again because somebody killed their worker.");
@@ -139,7 +139,7 @@ std::string Metrics::text(const worker::BackendState& backend, PictureCache::Cou
         line(out, "farol_job_duration_seconds_sum" + label, counts.seconds);
         line(out, "farol_job_duration_seconds_count" + label, static_cast<double>(counts.done));
     }
-    head(out, "farol_cache_requests_total", "counter", "Pictures looked for among those sent.");
+    head(out, "farol_cache_requests_total", "counter", "Images looked for among those sent.");
     line(out, "farol_cache_requests_total{cache=\"picture\",result=\"hit\"}",
          static_cast<double>(pictures.hits));
     line(out, "farol_cache_requests_total{cache=\"picture\",result=\"miss\"}",

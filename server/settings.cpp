@@ -110,7 +110,7 @@ std::vector<Setting> makeSettings() {
                "answers to students' checks of an assignment leave at multiples of it after the "
                "request, s",
                kMinTimeS, 60.0, FIELD(checkTime)),
-        number("cache-bytes", "memory for pictures that were sent, bytes; 0: none", 0, 1LL << 40U,
+        number("cache-bytes", "memory for images that were sent, bytes; 0: none", 0, 1LL << 40U,
                FIELD(cacheBytes)),
         number("rate", "requests of one client a second; 0: no limit", 0, 1e6,
                FIELD(rate.perSecond)),

@@ -68,8 +68,8 @@ MetricSpec work(Topic topic, double weight, const char* summary) {
 std::vector<MetricSpec> makeMetrics() {
     return {
         {"difference",
-         "share of what the pictures show that is beyond a pixel's shift: per channel outside the "
-         "range of the 3x3 pixels around in the other picture, the larger of both directions, "
+         "share of what the images show that is beyond a pixel's shift: per channel outside the "
+         "range of the 3x3 pixels around in the other image, the larger of both directions, "
          "whole from 64 levels on. Pixels that show the background in both do not count",
          ImageMetric{.needs = {},
                      .compute = differenceOf,

@@ -44,7 +44,7 @@ void describePicture(Form& form, Rubric& rubric) {
     form.flag("axes", rubric.axes);
     form.flag("crop", rubric.cropAuto, "Cut window frames and title bars off screenshots.");
     form.flag("maskAxes", rubric.maskAxes,
-              "Where pictures are compared, coordinate axes do not count.");
+              "Where images are compared, coordinate axes do not count.");
     form.list("masks", rubric.masks, Rectangle{0, 0, 1, 1}, 0, 32,
               "Parts that do not count, px from the top left.",
               [](Form& each, Rectangle& mask, std::size_t) {
@@ -123,12 +123,11 @@ void describe(Form& form, Rubric& rubric) {
     form.number("strictness", rubric.strictness, 0.1, 10, "Times every loss.");
     form.object("picture", [&](Form& picture) { describePicture(picture, rubric); });
     form.flag("lend", rubric.lend,
-              "Pictures and models that a submission names and lacks are read from the "
+              "Images and models that a submission names and lacks are read from the "
               "reference's files, with a note grade.lent; documents and .3d meshes never are.");
-    form.flag(
-        "images", rubric.takesImages,
-        "Grade a picture that was handed in for a scene, by the image measures; false: it has "
-        "no mark, and its similarity is shown.");
+    form.flag("images", rubric.takesImages,
+              "Grade an image that was handed in for a scene, by the image measures; false: it has "
+              "no mark, and its similarity is shown.");
     form.word("reveal", rubric.reveal, kRevealWords,
               "words: findings tell kinds and directions; values: the reference's numbers too.");
     form.numbers("times", rubric.timesS, 1, 8, -1e6, 1e6,

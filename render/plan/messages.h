@@ -46,7 +46,7 @@ inline constexpr MessageRow kRenderMessages[] = {
      "the image is {width} x {height} px; expected at most {most} px a side",
      {"9000", "16", "4096"}},
     {"limit.shadows",
-     "{count} lights cast no shadow: an image has at most {max} shadow maps, and a light that "
+     "lights without shadows: {count}; an image has at most {max} shadow maps, and a light that "
      "shines to all sides needs up to 6; use fewer lights",
      {"2", "64"}},
     {"option.camera/far", "far is {far}; expected more than near, {near}", {"1", "2"}},

@@ -95,7 +95,7 @@ inline constexpr MessageRow kFilesMessages[] = {
      "the archive has more than {max} entries; leave out folders that the scene does not name",
      {"50000"}},
     {"limit.bundle/needed",
-     "the files that the scenes name are larger than {most} MiB together; send smaller pictures "
+     "the files that the scenes name are larger than {most} MiB together; send smaller images "
      "or meshes",
      {"64"}},
     {"limit.file-bytes/asset",

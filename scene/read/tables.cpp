@@ -157,7 +157,7 @@ constexpr AttributeSpec kModel[] = {
     number("opacity", "", "1",
            "0 invisible to 1 opaque; multiplies the opacity of its colours and of its texture",
            {0, 1}, true),
-    text("id", "", "", "a name to find it by in `layer=id` pictures"),
+    text("id", "", "", "a name to find it by in `layer=id` images"),
     text("name", "", "", ""),
     number("diffR", "diffuseR diffX diffuseX R red", "",
            "material colours 0 to 1 (over 1: all three as 0 to 255, with a warning)", {0, 255}),
@@ -187,7 +187,7 @@ constexpr AttributeSpec kModel[] = {
     number("yMaxR", "yMax", "0", ""),
 };
 constexpr AttributeSpec kTexture[] = {
-    text("file", "src path name", "", "a picture, or `chess:COLUMNSxROWS`"),
+    text("file", "src path name", "", "an image, or `chess:COLUMNSxROWS`"),
     word("mapping", "", "mesh sphere", "mesh",
          "`sphere`: u = 0.5 + atan2(z, x) / 2 pi, v = 0.5 - asin(y) / pi of the normalised "
          "position, v = 0 the top row"),
@@ -232,12 +232,12 @@ constexpr AttributeSpec kGenerator[] = {
     text("argv", "args arguments", "", "the words of a `generator` comment"),
 };
 constexpr AttributeSpec kSkybox[] = {
-    number("width", "size", "500", "has no effect on the picture: the box is at infinity", {kTiny}),
+    number("width", "size", "500", "has no effect on the image: the box is at infinity", {kTiny}),
     text("texture", "file", "",
-         "one picture, 4 x 3 fields: top over front, left front right back, bottom under front"),
+         "one image, 4 x 3 fields: top over front, left front right back, bottom under front"),
 };
 constexpr AttributeSpec kBackground[] = {
-    text("texture", "file image", "", "a picture that fills the window behind everything"),
+    text("texture", "file image", "", "an image that fills the window behind everything"),
     text("color", "colour", "", "#rrggbb, r,g,b with 0 to 255, or a name"),
     number("R", "red", "0", "the colour instead: 0 to 255, or 0 to 1 if none is over 1", {0, 255}),
     number("G", "green", "0", "", {0, 255}),

@@ -181,6 +181,13 @@ class text(unittest.TestCase):
                 wrong += [f"{page}: {found[0]}" for found in re.finditer(r"\bpictures?\b", body, re.I)]
         self.assertEqual(wrong, [])
 
+    def test_the_interface_has_images_not_pictures(self):
+        # But for the names of parameters and members: pictures=2, picture: {...}.
+        wrong = [f"{page}: {line.strip()}" for page in ("api/errors.md", "api/openapi.yaml")
+                 for line in (ROOT / page).read_text().split("\n")
+                 if re.search(r"(?<!name: )\bpictures?\b(?![=:])", line, re.I) and not line.startswith("| ")]
+        self.assertEqual(wrong, [])
+
     def test_cells_of_tables_are_short(self):
         wrong = []
         for page in of_docs():

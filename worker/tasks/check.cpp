@@ -55,9 +55,9 @@ void drawCanary(render::Renderer& renderer) {
     const render::Picture picture = renderer.render(canaryJob());
     const image::Image image = image::decodeImage(picture.bytes, "canary.png");
     if (image.width != 16 || image.height != 16)
-        throw std::runtime_error("the canary picture has the wrong size");
+        throw std::runtime_error("the canary image has the wrong size");
     if (!isColor(image, 0, 0, 0x20, 0x40, 0x60) || !isColor(image, 8, 8, 255, 128, 0))
-        throw std::runtime_error("the canary picture has the wrong colours");
+        throw std::runtime_error("the canary image has the wrong colours");
 }
 
 }  // namespace

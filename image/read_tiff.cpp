@@ -46,6 +46,16 @@ int closeNothing(thandle_t) { return 0; }
 
 toff_t sizeOf(thandle_t handle) { return TiffSource::of(handle).bytes.size(); }
 
+/// libtiff only reads from what is mapped.
+int mapBytes(thandle_t handle, void** base, toff_t* size) {
+    const std::string_view bytes = TiffSource::of(handle).bytes;
+    *base = const_cast<char*>(bytes.data());
+    *size = bytes.size();
+    return 1;
+}
+
+void unmapNothing(thandle_t, void*, toff_t) {}
+
 int noteError(TIFF*, void* user, const char*, const char* format, va_list words) {
     auto& source = *static_cast<TiffSource*>(user);
     std::array<char, 300> text{};
@@ -70,9 +80,10 @@ File open(TiffSource& source, tmsize_t maxBytes) {
     TIFFOpenOptionsSetMaxSingleMemAlloc(options.get(), maxBytes);
     TIFFOpenOptionsSetErrorHandlerExtR(options.get(), noteError, &source);
     TIFFOpenOptionsSetWarningHandlerExtR(options.get(), ignoreWarning, nullptr);
-    // No mapping ("m"), and no splitting of strips ("c").
-    File file(TIFFClientOpenExt("image", "rmc", &source, readBytes, writeNothing, seek,
-                                closeNothing, sizeOf, nullptr, nullptr, options.get()),
+    // No splitting of strips ("c"). Without a mapping libtiff 4.5.0 refuses tiles that are not
+    // compressed: it takes the size of its buffer for that of the tile.
+    File file(TIFFClientOpenExt("image", "rc", &source, readBytes, writeNothing, seek, closeNothing,
+                                sizeOf, mapBytes, unmapNothing, options.get()),
               &TIFFClose);
     if (!file) throwError(source);
     return file;

@@ -85,9 +85,9 @@ set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
 set(CPACK_DEBIAN_ENABLE_COMPONENT_DEPENDS OFF)
 set(CPACK_DEBIAN_FAROL_PACKAGE_NAME farol)
 set(CPACK_DEBIAN_FAROL_PACKAGE_SHLIBDEPS ON)
-# The library that draws is loaded at run time.
-set(CPACK_DEBIAN_FAROL_PACKAGE_DEPENDS "adduser, libosmesa6 | libegl1")
-set(CPACK_DEBIAN_FAROL_PACKAGE_SUGGESTS "farol-openexr, libgl1-mesa-dri")
+# The library that draws is loaded at run time: OSMesa, or EGL with Mesa's driver.
+set(CPACK_DEBIAN_FAROL_PACKAGE_DEPENDS "adduser, libosmesa6 | libegl1, libosmesa6 | libgl1-mesa-dri")
+set(CPACK_DEBIAN_FAROL_PACKAGE_SUGGESTS "farol-openexr")
 set(CPACK_DEBIAN_FAROL_PACKAGE_CONTROL_EXTRA
     ${CMAKE_SOURCE_DIR}/packaging/conffiles ${CMAKE_SOURCE_DIR}/packaging/postinst
     ${CMAKE_SOURCE_DIR}/packaging/prerm ${CMAKE_SOURCE_DIR}/packaging/postrm)

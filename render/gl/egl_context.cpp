@@ -91,7 +91,8 @@ EGLDisplay openDisplay(const Egl& egl, bool onGpu) {
     const EGLDisplay display = deviceDisplay(egl, onGpu);
     if (display == EGL_NO_DISPLAY)
         throw std::runtime_error(onGpu ? "GL source \"egl:gpu\": EGL finds no GPU; use \"auto\""
-                                       : "GL source \"egl\": EGL has no display without a window");
+                                       : "GL source \"egl\": EGL has no display without a window; "
+                                         "install libgl1-mesa-dri, or libosmesa6 instead of EGL");
     return display;
 }
 

@@ -275,6 +275,17 @@ test('the focus is never lost: closed dialogs, panels and notes give it back', a
   await press('Escape', 'Tab');
   await tabTo('button', 'Discard');
   await press('Enter');
-  await isOn('tab', 'XML', { selected: true });
+  await isOn('button', 'Reference');
+  // A class is graded: the button that began it gives way to the one that stops it, and that one to the next.
+  await page.goto(`${server.url}/#/grade`);
+  await page.getByRole('button', { name: /example class/ }).focus();
+  await press('Enter');
+  await page.getByRole('button', { name: 'Grade', exact: true }).waitFor();
+  await tabTo('button', 'Grade');
+  await press('Enter');
+  await isOn('button', 'Cancel');
+  await hears(/^Grading \d+ of \d+…$/);
+  await press('Enter');
+  await isOn('button', /^Go on: \d+ left$/);
   await keys.close();
 });

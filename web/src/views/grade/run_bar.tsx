@@ -7,7 +7,7 @@ import { storageState } from '../../grade/store.ts';
 import { msg, plural, t } from '../../words.ts';
 import { Icon } from '../icons.tsx';
 import { saveBlob } from '../save.ts';
-import { say } from '../ui.tsx';
+import { pressable, say } from '../ui.tsx';
 
 const summaries: Record<ReportName, string> = {
   moodle: msg('Moodle’s grading worksheet'), criteria: msg('a column for each task and criterion'), html: msg('a page with all images, for reading'),
@@ -72,7 +72,7 @@ export function RunBar() {
           </>
         ) : (
           <>
-            <button type="button" class="button primary" disabled={left === 0 || lacks} onClick={() => void run()}>
+            <button type="button" class="button primary" {...pressable(left > 0 && !lacks, () => void run())}>
               {count === 0 ? t('Grade') : left > 0 ? t('Go on: {count} left', { count: left }) : t('All is graded')}</button>
             <Exports />
             {count > 0 && <button type="button" class="link" onClick={() => {

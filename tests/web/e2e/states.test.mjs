@@ -173,6 +173,11 @@ test('without the server the page says so, and goes on by itself when it is back
   await settled(view); // nobody did anything
   await inState(view, 'drawn');
   const pixels = await canvasPixels(view.page);
+  // From now on it does not ask again by itself: the button alone does.
+  await view.page.evaluate(() => {
+    const plain = window.setTimeout;
+    window.setTimeout = (act, ms, ...given) => (ms >= 1000 ? 0 : plain(act, ms, ...given));
+  });
   await view.page.route(/\/v1\//, (route) => route.abort());
   await view.page.locator('.stage').focus();
   await view.page.keyboard.press('ArrowLeft');

@@ -1,12 +1,12 @@
 // A lap of a scene's animation as one file: its frames are asked for one by one and put together here.
-import { patient } from '../api.ts';
+import { patient, query, request } from '../api.ts';
 import { t } from '../words.ts';
 import { crc32 } from '../zip.ts';
 import { fetchPicture } from './frame.ts';
 import type { Viewer } from './viewer.ts';
 
 export interface AnimationPlan {
-  format: 'apng' | 'webp';
+  format: 'apng' | 'webp' | 'mp4' | 'webm';
   width: number;
   height: number;
   fps: number;
@@ -16,6 +16,11 @@ export interface AnimationPlan {
 }
 
 export const maxFrames = 600;
+/** Of a video, which the service writes. */
+export const maxVideoFrames = 120;
+const maxVideoPixels = 33_554_432;
+export const isVideo = ({ format }: AnimationPlan): boolean => format === 'mp4' || format === 'webm';
+export const endingOf = ({ format }: AnimationPlan): string => (format === 'apng' ? 'png' : format);
 const maxBytes = 200e6;
 const atOnce = 2;
 
@@ -23,6 +28,21 @@ export const frameCount = ({ seconds, speed, fps }: AnimationPlan): number => Ma
 
 /** The moment that frame number `index` shows. */
 export const frameTime = ({ from, speed, fps }: AnimationPlan, index: number): number => Number((from + (index * speed) / fps).toFixed(4));
+
+/** The most frames that a file of this plan has. */
+export const framesLimit = (plan: AnimationPlan): number =>
+  (isVideo(plan) ? Math.min(maxVideoFrames, Math.floor(maxVideoPixels / (plan.width * plan.height))) : maxFrames);
+
+/** Whether the service has what is on show: it writes videos of stored scenes. */
+export const isAsStored = (viewer: Viewer): boolean => viewer.id !== null && !viewer.edited.value && viewer.marks.value.hidden.length === 0;
+
+/** A lap as a video, which the service draws and writes; it sends nothing before it is done. */
+export async function requestVideo(viewer: Viewer, plan: AnimationPlan, signal: AbortSignal): Promise<Blob> {
+  const { time: _, ...view } = viewer.pictureOptions(), address = viewer.facts.value?.links.turntable;
+  if (!address) throw new Error(t('The scene is not on the server'));
+  const asked = { ...view, width: plan.width, height: plan.height, over: 'time', frames: frameCount(plan), fps: plan.fps, format: plan.format };
+  return (await patient(() => request(`${address}?${query(asked)}`, { signal }))).blob();
+}
 
 /** `progress` gets the number of frames that are there. Rejects when a frame cannot be drawn, or by the signal. */
 export async function drawAnimation(viewer: Viewer, plan: AnimationPlan, progress: (done: number) => void, signal: AbortSignal): Promise<Blob> {

@@ -8,7 +8,7 @@ const [, , scene = 'solar-system', seconds = '5', repeats = '3'] = process.argv;
 const median = (values) => [...values].sort((a, b) => a - b)[values.length >> 1] ?? Number.NaN;
 const percentile = (values, p) => [...values].sort((a, b) => a - b)[Math.min(values.length - 1, Math.floor(values.length * p))] ?? Number.NaN;
 
-/** CPU time in ms of this process and all below it: server, workers and browser. Another load does not change it much. */
+/** CPU time in ms of this process and each below it: server, workers and browser. Another load does not change it much. */
 function cpuMs() {
   const parents = new Map(), times = new Map();
   for (const name of readdirSync('/proc').filter((one) => /^\d+$/.test(one))) {
@@ -21,7 +21,7 @@ function cpuMs() {
     }
   }
   const isBelow = (id) => id === process.pid || (parents.has(id) && isBelow(parents.get(id)));
-  return [...times].reduce((sum, [id, ms]) => sum + (isBelow(id) ? ms : 0), 0);
+  return new Map([...times].filter(([id]) => isBelow(id)));
 }
 
 const [server, browser] = await Promise.all([startServer(), launch()]);
@@ -74,7 +74,7 @@ for (const [width, height] of [[512, 512], [1280, 800], [1920, 1080]]) {
     }), { ...middle, forMs: Number(seconds) * 1000 });
     await view.page.mouse.up();
     const [frames, inputs] = await view.page.evaluate(() => [window.frames_, window.inputs_]);
-    const cpu = (cpuMs() - before) / frames.length;
+    const cpu = [...cpuMs()].reduce((sum, [id, ms]) => sum + ms - (before.get(id) ?? 0), 0) / frames.length; // of those that go on
     const rate = ((frames.length - 1) * 1000) / (frames.at(-1).at - frames[0].at), delays = frames.map((one) => one.delay);
     console.log(`${rate.toFixed(1)} frames/s, input to image median ${median(delays).toFixed(0)} ms (90 % under ${percentile(delays, 0.9).toFixed(0)} ms), ` +
       `${(inputs / Number(seconds)).toFixed(0)} movements/s, ${cpu.toFixed(0)} ms of CPU time a frame, frames ${median(frames.map((one) => one.width))} px wide (scale ${median(frames.map((one) => one.scale))})`);

@@ -127,9 +127,9 @@ void helpAnimation(render::Job job, const Schedule& schedule, const Share& share
                    render::GlSource gl) {
     if (share.index >= schedule.frames) return;
     const int frames = (schedule.frames - 1 - share.index) / share.count + 1;
+    render::Renderer renderer(gl);  // before the first thread
     FrameSender sender(frames, socket);
     image::FrameEncoder sending(sender);
-    render::Renderer renderer(gl);
     for (int i = share.index; i < schedule.frames; i += share.count) {
         job.options.timeS = schedule.timeOf(i);
         image::Image image;
@@ -145,6 +145,7 @@ render::Picture renderAnimation(render::Job job, const Schedule& schedule, const
     const bool files = framePath(path, 0) != path;
     const std::optional<image::AnimationFormat> format = animationFormat(path, job.options.format);
     if (!files && !format) throw UsageError(message<"usage/frames-format">());
+    render::Renderer renderer(gl);  // before the first thread
     std::unique_ptr<image::AnimationWriter> animation;
     if (files)
         animation = std::make_unique<NumberedFiles>(schedule.frames, job.options, outputs);
@@ -153,7 +154,6 @@ render::Picture renderAnimation(render::Job job, const Schedule& schedule, const
                                                   job.options.background == "transparent",
                                                   job.options.quality});
     image::FrameEncoder encoder(*animation);
-    render::Renderer renderer(gl);
     render::Picture last;
     FrameProgress progress(report);
     std::vector<bool> hasEnded(outputs.helpers().size());

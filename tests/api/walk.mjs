@@ -71,7 +71,8 @@ async function ask(operation, method, target, options = {}) {
     return { answer, bytes };
 }
 
-const xml = '<world><group><models><model file="box_1_2.3d"/></models></group></world>';
+// It turns, for routes that show what moves.
+const xml = '<world><group><transform><rotate time="2" x="0" y="1" z="0"/></transform><models><model file="box_1_2.3d"/></models></group></world>';
 const sample = { method: 'POST', headers: { 'Content-Type': 'application/xml' }, body: xml };
 const form = new FormData();
 form.append('submission', new Blob([xml]), 'submission.xml');

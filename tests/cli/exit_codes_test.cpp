@@ -76,7 +76,7 @@ TEST_CASE("what the command line gets wrong is exit code 2") {
         {"generate --frob 1 sphere 1 2 3 s.3d", 2, {"--frob"}},
         {"generate sphere 1 10 10 s.3d --uv round", 2, {"round"}},
         {"serve --isolate all", 2, {"--isolate"}},
-        {"compare a.png", 2, {"expected two pictures"}},
+        {"compare a.png", 2, {"expected two images"}},
         {"compare a.png b.png --crop 5x5", 2, {"WxH+X+Y"}},
         {"compare a.png b.png --diff d.jpg", 2, {"d.jpg"}},
         {"serve --port 70000", 2, {"--port"}},

@@ -33,18 +33,24 @@ const openExport = async (view) => {
 const played = (page, bytes, type, times) => page.evaluate(async ([base64, kind, moments]) => {
   const film = document.createElement('video');
   film.muted = true;
+  document.body.append(film);
   film.src = `data:${kind};base64,${base64}`;
   await new Promise((done, failed) => Object.assign(film, { onloadeddata: done, onerror: () => failed(new Error(film.error?.message)) }));
   const canvas = new OffscreenCanvas(film.videoWidth, film.videoHeight), context = canvas.getContext('2d'), places = [];
   for (const moment of moments) {
-    film.currentTime = moment;
-    await new Promise((done) => (film.onseeked = done));
+    // The event of the seek may come before its frame.
+    await new Promise((done) => {
+      const look = (_, { mediaTime }) => (Math.abs(mediaTime - moment) < 0.06 ? done() : film.requestVideoFrameCallback(look));
+      film.requestVideoFrameCallback(look);
+      film.currentTime = moment;
+    });
     context.drawImage(film, 0, 0);
     const { data } = context.getImageData(0, 0, canvas.width, canvas.height);
     let [x, y, count] = [0, 0, 0];
     for (let i = 0; i < data.length / 4; ++i) if (data[4 * i] > 80 && data[4 * i + 1] < 60) [x, y, count] = [x + (i % canvas.width), y + Math.floor(i / canvas.width), count + 1];
     places.push({ x: x / count / canvas.width, y: y / count / canvas.height, count });
   }
+  film.remove();
   return { seconds: film.duration, width: film.videoWidth, places };
 }, [bytes.toString('base64'), type, times]);
 

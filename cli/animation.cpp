@@ -103,9 +103,10 @@ std::optional<image::AnimationFormat> animationFormat(const std::string& path,
 
 int drawingProcesses(const AnimationFlags& flags) {
     if (flags.jobs) return *flags.jobs;
-    const int cores =
-        std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, kMaxDrawingProcesses);
-    return flags.frames ? std::clamp(*flags.frames / kLeastShare, 1, cores) : cores;
+    // llvmpipe keeps two cores busy: on two, a second process gains nothing.
+    const int most = std::clamp(static_cast<int>(std::thread::hardware_concurrency()) / 2, 1,
+                                kMaxDrawingProcesses);
+    return flags.frames ? std::clamp(*flags.frames / kLeastShare, 1, most) : most;
 }
 
 Share shareOf(int process, const AnimationFlags& flags, int frames) {

@@ -215,7 +215,7 @@ void addRender(CLI::App& root, Action& action) {
         ->group("Animation");
     CLI::Option* jobs = command->add_option(
         "--jobs", flags->animation.jobs,
-        "processes that draw an animation; default one a core; 1 where the sandbox is off");
+        "processes that draw an animation; default one for two cores; 1 where the sandbox is off");
     takesNumber(command->add_option("--deadline", flags->deadlineS,
                                     "ends with limit.deadline after that many s; 0: no deadline"),
                 0.0, 86'400.0);

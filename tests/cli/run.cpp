@@ -90,4 +90,11 @@ const char* const kScene = R"(<world>
 </world>
 )";
 
+std::string turningScene() {
+    std::string scene = kScene;
+    scene.insert(scene.find("<models>"),
+                 "<transform><rotate time=\"2\" y=\"1\"/><translate x=\"0.5\"/></transform>");
+    return scene;
+}
+
 }  // namespace farol::test

@@ -27,4 +27,7 @@ const std::filesystem::path& folder();
 /// A small scene of a red sphere, lit from the camera's side.
 extern const char* const kScene;
 
+/// kScene with its sphere going around the origin in 2 s.
+std::string turningScene();
+
 }  // namespace farol::test

@@ -13,13 +13,6 @@ using nlohmann::json;
 
 namespace {
 
-std::string turningScene() {
-    std::string scene = kScene;
-    scene.insert(scene.find("<models>"),
-                 "<transform><rotate time=\"2\" y=\"1\"/><translate x=\"0.5\"/></transform>");
-    return scene;
-}
-
 bool hasModule() {
     return std::filesystem::exists(std::filesystem::path(kProgram).parent_path() /
                                    "libfarol_video.so");

@@ -5,6 +5,7 @@ import http.client
 import json
 import os
 import pathlib
+import re
 import shutil
 import signal
 import socket
@@ -152,6 +153,12 @@ class Proxy(Process):
             env={**os.environ, "FAROL_BIND": "127.0.0.1", "FAROL_SLOTS": str(slots),
                  "FAROL_RENDERERS": "localhost"})
         wait_for("the proxy answers", lambda: get(self.port, "/livez")[0] == 200)
+
+    def up(self):
+        """Names of the renderers that get requests."""
+        text = get(self.operator, "/metrics")[2].decode()
+        return set(re.findall(
+            r'^haproxy_server_status{proxy="renderers",server="(\w+)",state="UP"} 1$', text, re.M))
 
 
 class Cluster:

@@ -3,10 +3,15 @@
 #include <isa-l.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cstring>
+#include <future>
 #include <memory>
 #include <new>
 #include <stdexcept>
+#include <system_error>
+#include <thread>
+#include <vector>
 
 namespace farol::image::png {
 namespace {
@@ -14,6 +19,11 @@ namespace {
 constexpr std::uint8_t kFilterSub = 1;
 
 constexpr std::uint32_t kOutAtOnce = 256 * 1024;
+
+/// Filtered bytes of a stripe: smaller ones compress worse, larger ones leave processors idle.
+constexpr std::size_t kMinStripe = 384 * 1024;
+
+constexpr std::size_t kMaxThreads = 4;  // of one image
 
 using Bytes = std::unique_ptr<std::uint8_t[]>;
 
@@ -34,13 +44,17 @@ std::uint32_t load(const std::uint8_t* from) {
     return value;
 }
 
-/// Rows with their filter byte: height * (1 + width * channels). One byte more is scratch.
-Bytes filterRows(const Image& image, std::size_t channels) {
+/// Bytes of a row with its filter byte.
+std::size_t rowBytes(const Image& image, std::size_t channels) {
+    return 1 + static_cast<std::size_t>(image.width) * channels;
+}
+
+/// Rows with their filter byte, `count` of them from `first` on. One byte more is scratch.
+Bytes filterRows(const Image& image, std::size_t channels, std::size_t first, std::size_t count) {
     const std::size_t width = static_cast<std::size_t>(image.width);
-    const std::size_t height = static_cast<std::size_t>(image.height);
-    Bytes rows = uncleared(height * (1 + width * channels) + 1);
+    Bytes rows = uncleared(count * rowBytes(image, channels) + 1);
     std::uint8_t* to = rows.get();
-    for (std::size_t y = 0; y < height; ++y) {
+    for (std::size_t y = first; y < first + count; ++y) {
         const std::uint8_t* from = &image.pixels[y * width * 4];
         *to++ = kFilterSub;
         std::uint32_t before = 0;
@@ -55,9 +69,9 @@ Bytes filterRows(const Image& image, std::size_t channels) {
     return rows;
 }
 
-/// Appends a zlib stream (RFC 1950). Level 3 of ISA-L: decision 10.
-void deflate(std::uint8_t* rows, std::size_t size, std::string& out) {
-    constexpr std::size_t kMaxAtOnce = std::size_t{1} << 30;  // ISA-L counts in 32 bits
+/// Appends raw deflate blocks (RFC 1951) that refer to no bytes before them and end with a byte.
+/// Level 3 of ISA-L: decision 10.
+void deflate(std::uint8_t* rows, std::size_t size, bool isLast, std::string& out) {
     // ISA-L reads its hash table before it fills it: other bytes there give other matches.
     const Bytes buffer = zeroed(ISAL_DEF_LVL3_DEFAULT);
     const auto stream = std::make_unique<isal_zstream>();
@@ -65,23 +79,76 @@ void deflate(std::uint8_t* rows, std::size_t size, std::string& out) {
     stream->level = 3;
     stream->level_buf = buffer.get();
     stream->level_buf_size = ISAL_DEF_LVL3_DEFAULT;
-    stream->gzip_flag = IGZIP_ZLIB;
+    stream->gzip_flag = IGZIP_DEFLATE;
+    stream->flush = isLast ? NO_FLUSH : FULL_FLUSH;
+    stream->end_of_stream = isLast ? 1 : 0;
+    stream->next_in = rows;
+    stream->avail_in = static_cast<std::uint32_t>(size);
     const Bytes packed = uncleared(kOutAtOnce);
-    std::size_t left = size;
     do {
-        if (stream->avail_in == 0) {
-            const std::size_t next = std::min(left, kMaxAtOnce);
-            stream->next_in = rows + (size - left);
-            stream->avail_in = static_cast<std::uint32_t>(next);
-            left -= next;
-            stream->end_of_stream = left == 0 ? 1 : 0;
-        }
         stream->next_out = packed.get();
         stream->avail_out = kOutAtOnce;
         if (const int code = isal_deflate(stream.get()); code != COMP_OK)
             throw std::runtime_error("ISA-L gives up with code " + std::to_string(code));
         out.append(reinterpret_cast<const char*>(packed.get()), kOutAtOnce - stream->avail_out);
-    } while (stream->internal_state.state != ZSTATE_END);
+    } while (stream->avail_out == 0);
+}
+
+/// Rows that are deflated apart from the others.
+struct Stripe {
+    std::size_t first, count;  // rows
+    std::string deflated;
+    std::uint32_t adler = 1;  // of its filtered bytes
+};
+
+/// Divides the rows by the image's size alone, so that its bytes do not depend on the machine.
+std::vector<Stripe> stripesOf(const Image& image, std::size_t channels) {
+    const auto height = static_cast<std::size_t>(image.height);
+    const std::size_t row = rowBytes(image, channels);
+    const std::size_t stripes = std::clamp<std::size_t>(height * row / kMinStripe, 1, height);
+    std::vector<Stripe> all;
+    for (std::size_t i = 0; i < stripes; ++i) {
+        const std::size_t first = height * i / stripes;
+        all.push_back({first, height * (i + 1) / stripes - first, {}});
+    }
+    return all;
+}
+
+/// Fills in the stripes, by as many threads as can be had.
+void deflateStripes(const Image& image, std::size_t channels, std::vector<Stripe>& stripes) {
+    const std::size_t row = rowBytes(image, channels);
+    std::atomic<std::size_t> next = 0;
+    const auto work = [&] {
+        for (std::size_t i = next++; i < stripes.size(); i = next++) {
+            Stripe& stripe = stripes[i];
+            const Bytes rows = filterRows(image, channels, stripe.first, stripe.count);
+            const std::size_t size = stripe.count * row;
+            stripe.adler = isal_adler32(1, rows.get(), size);
+            deflate(rows.get(), size, i + 1 == stripes.size(), stripe.deflated);
+        }
+    };
+    const std::size_t threads =
+        std::min<std::size_t>({stripes.size(), std::thread::hardware_concurrency(), kMaxThreads});
+    std::vector<std::future<void>> others;  // their destructors wait
+    try {
+        for (std::size_t i = 1; i < threads; ++i)
+            others.push_back(std::async(std::launch::async, work));
+    } catch (const std::system_error&) {
+        // No more threads: those that there are do the rest.
+    }
+    work();
+    for (std::future<void>& other : others) other.get();
+}
+
+/// Returns the Adler-32 checksum (RFC 1950) of two parts, one behind the other.
+std::uint32_t joinAdler(std::uint32_t first, std::uint32_t second, std::uint64_t secondSize) {
+    constexpr std::uint64_t kBase = 65521;
+    const std::uint64_t a = first & 0xFFFFU, b = first >> 16;
+    const std::uint64_t c = second & 0xFFFFU, d = second >> 16;
+    // The second's sums began with 1, and with 0 of the sums of sums.
+    const std::uint64_t low = (a + c + kBase - 1) % kBase;
+    const std::uint64_t high = (b + d + (secondSize % kBase) * (a + kBase - 1)) % kBase;
+    return static_cast<std::uint32_t>(high << 16 | low);
 }
 
 }  // namespace
@@ -123,11 +190,16 @@ void appendHeader(std::string& out, int width, int height, int channels) {
 }
 
 void appendPixels(std::string& out, const Image& image, int channels) {
-    const std::size_t size =
-        static_cast<std::size_t>(image.height) *
-        (1 + static_cast<std::size_t>(image.width) * static_cast<std::size_t>(channels));
-    const Bytes rows = filterRows(image, static_cast<std::size_t>(channels));
-    deflate(rows.get(), size, out);
+    std::vector<Stripe> stripes = stripesOf(image, static_cast<std::size_t>(channels));
+    deflateStripes(image, static_cast<std::size_t>(channels), stripes);
+    const std::size_t row = rowBytes(image, static_cast<std::size_t>(channels));
+    out.append("\x78\x01", 2);  // zlib: deflate with a window of 32 KiB
+    std::uint32_t adler = 1;
+    for (const Stripe& stripe : stripes) {
+        out.append(stripe.deflated);
+        adler = joinAdler(adler, stripe.adler, stripe.count * row);
+    }
+    appendU32(out, adler);
 }
 
 }  // namespace farol::image::png

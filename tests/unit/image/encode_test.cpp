@@ -1,3 +1,5 @@
+#include <sched.h>
+
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <memory>
@@ -30,6 +32,29 @@ TEST_CASE("a PNG holds exactly the pixels that went in") {
     const std::string png = image::encodePng(image);
     CHECK(png[25] == (opaque ? 2 : 6));  // colour type of IHDR
     CHECK(image::decodeImage(png, "a.png") == image);
+}
+
+TEST_CASE("a PNG of several stripes holds its pixels, in the same bytes on one processor") {
+    const auto [width, height, opaque] = GENERATE(table<int, int, bool>(
+        {{512, 512, true}, {701, 613, false}, {3, 90'001, true}, {140'000, 3, true}}));
+    CAPTURE(width, height);
+    Image image = noise(width, height, opaque);
+    for (std::size_t i = 0; i < image.pixels.size() / 2; ++i)  // compressible in part
+        if (i % 4 != 3) image.pixels[i] = static_cast<std::uint8_t>(i / 4096);
+    const std::string png = image::encodePng(image);
+    std::string damage;
+    CHECK(image::decodeImage(png, "a.png", {}, &damage) == image);
+    CHECK(damage.empty());  // the checksum of the whole is right
+
+    cpu_set_t all, first;
+    REQUIRE(sched_getaffinity(0, sizeof all, &all) == 0);
+    CPU_ZERO(&first);
+    for (int i = 0; i < CPU_SETSIZE && CPU_COUNT(&first) == 0; ++i)
+        if (CPU_ISSET(i, &all)) CPU_SET(i, &first);
+    REQUIRE(sched_setaffinity(0, sizeof first, &first) == 0);
+    const std::string alone = image::encodePng(image);
+    REQUIRE(sched_setaffinity(0, sizeof all, &all) == 0);
+    CHECK(alone == png);
 }
 
 TEST_CASE("JPEG and WebP are read back as nearly the same picture") {

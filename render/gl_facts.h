@@ -14,13 +14,15 @@ using SamplePattern = std::vector<glm::dvec2>;
 struct GlFacts {
     /// Of multisampled targets, in ascending order of samples. Empty: not supported.
     std::vector<SamplePattern> samplePatterns;
-    double snapPx = 1.0 / 32.0;     ///< most that the rasteriser's grid moves a vertex, px
-    int maxTextureSide = 16384;     ///< px
-    int maxFaceSide = 16384;        ///< of a cube map, px
-    int maxTargetSide = 16384;      ///< of a render target, px
-    float maxAnisotropy = 1.0F;     ///< 1: isotropic filters only
-    bool packInvert = false;        ///< GL_MESA_pack_invert: images are read top row first
-    std::string renderer, version;  ///< "llvmpipe (LLVM ...)", "4.5 (Core Profile) Mesa 22.3.6"
+    double snapPx = 1.0 / 32.0;         ///< most that the rasteriser's grid moves a vertex, px
+    int maxTextureSide = 16384;         ///< px
+    int maxFaceSide = 16384;            ///< of a cube map, px
+    int maxTargetSide = 16384;          ///< of a render target, px
+    float maxAnisotropy = 1.0F;         ///< 1: isotropic filters only
+    int vertexComponents = 64;          ///< of a vertex shader's outputs
+    bool readsUniformsByPixel = false;  ///< in fragment shaders, each for itself: slowly
+    bool packInvert = false;            ///< GL_MESA_pack_invert: images are read top row first
+    std::string renderer, version;      ///< "llvmpipe (LLVM ...)", "4.5 (Core Profile) Mesa 22.3.6"
 
     /// "llvmpipe (LLVM ...), 4.5 (Core Profile) Mesa 22.3.6"
     std::string description() const { return renderer + ", " + version; }

@@ -209,7 +209,8 @@ Picture Renderer::State::draw(const Prepared& prepared, const Placed& placed, co
 
     PictureOptions options = job.options;
     picture.quality = resolveBudget(options, prepared.scene, placed);
-    Skipping skipping = job.drawUnseen ? Skipping{false, false, false, false, false} : Skipping{};
+    Skipping skipping =
+        job.drawUnseen ? Skipping{false, false, false, false, false, false} : Skipping{};
     skipping.notFinite = !job.markNotFinite;
     const auto openFile = [&](const TextureRef& ref) { return openTexture(ref, *prepared.assets); };
     std::optional<TexturePrefetch> prefetch;

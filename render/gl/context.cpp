@@ -82,6 +82,8 @@ GlFacts askFacts(const Api& api) {
         std::min({viewport[0], viewport[1], integerOf(api, GL_MAX_RENDERBUFFER_SIZE)});
     facts.maxTextureSide = std::max(1, integerOf(api, GL_MAX_TEXTURE_SIZE));
     facts.maxFaceSide = std::max(1, integerOf(api, GL_MAX_CUBE_MAP_TEXTURE_SIZE));
+    facts.vertexComponents = integerOf(api, GL_MAX_VERTEX_OUTPUT_COMPONENTS);
+    facts.readsUniformsByPixel = facts.renderer.starts_with("llvmpipe");
     facts.packInvert = hasExtension(api, "GL_MESA_pack_invert");
     throwOnError(api, "asking for its limits");
     GLfloat anisotropy = 1.0F;

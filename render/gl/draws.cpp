@@ -6,6 +6,9 @@
 namespace farol::render::gl {
 namespace {
 
+/// Of the 128 components of attributes; the others take up to 56.
+constexpr int kMaxCarried = 72;
+
 void setSurface(const Api& api, const DrawItem& item, const LinkedProgram& program) {
     const generator::Surface& surface = *item.surface;
     const glm::vec3 lengths(surface.lengths);
@@ -35,6 +38,15 @@ GLenum modeOf(Polygons polygons) {
                                             : GL_FILL;
 }
 
+/// What the fragments of a program with Feature::carried read of its lights (common.glsl).
+int numbersOf(const ProgramKey& key) {
+    const auto count = [&](Feature feature, int numbers) {
+        return key.features.has(feature) ? numbers : 0;
+    };
+    return key.count * (9 + count(Feature::positional, 4) + count(Feature::spot, 5) +
+                        count(Feature::specular, 3));
+}
+
 }  // namespace
 
 const EyeShadowLight& shadowLightOf(const FramePlan& plan, const EyeLight& light) {
@@ -55,6 +67,7 @@ ProgramKey keyOf(const FramePlan& plan, const Pass& pass, const Batch& batch) {
     const auto set = static_cast<std::size_t>(first.lightSet);
     if (pass.features.hasAny(kLitFeatures))
         key.count = static_cast<int>(plan.lightSets[set].size());
+    if (key.count == 0 || numbersOf(key) > kMaxCarried) key.features.remove(Feature::carried);
     if (!key.features.has(Feature::shadowed)) return key;
     for (const EyeLight& light : plan.lightSets[set]) {
         if (!(light.diffuse.w > 0.0F)) break;

@@ -139,7 +139,8 @@ void Painter::State::compileAhead(const FramePlan& plan) {
                 meshes.get(*first.mesh, pass.features.has(Feature::flat)).array.name());
             api.DrawArrays(GL_TRIANGLES, 0, 3);
         }
-        if (pass.target.output != PassOutput::none) target->resolve(resolver(pass.target.samples));
+        if (pass.target.output != PassOutput::none)
+            target->resolve(resolver(pass.target.samples), {}, {});
     }
     api.Disable(GL_SCISSOR_TEST);
 }
@@ -277,7 +278,8 @@ void Painter::State::drawPass(const FramePlan& plan, const Pass& pass, int& draw
 /// Reads back the result of a pass: the image, or a part of the mean of its band of rows.
 void Painter::State::read(const FramePlan& plan, std::size_t pass, image::Image& image) {
     const PassTarget& drawn = plan.passes[pass].target;
-    target->resolve(resolver(drawn.samples));
+    target->resolve(resolver(drawn.samples), plan.covered,
+                    drawn.clearColor.value_or(glm::vec4(0.0F)));
     const auto outputs = std::count_if(plan.passes.begin(), plan.passes.end(), [](const Pass& one) {
         return one.target.output != PassOutput::none;
     });

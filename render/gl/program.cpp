@@ -61,6 +61,7 @@ constexpr std::array<FeatureName, kFeatures> kNames{{
     {Feature::surfaceTurnFromX, "SURFACE_TURN_FROM_X"},
     {Feature::surfaceDiscUv, "SURFACE_DISC_UV"},
     {Feature::exactDepth, "EXACT_DEPTH"},
+    {Feature::carried, "CARRIED"},
     {Feature::eyePositions, "EYE_POSITIONS"},
     {Feature::instanced, "INSTANCED"},
     {Feature::skybox, "SKYBOX"},

@@ -1,6 +1,7 @@
 #include "render/gl/target.h"
 
 #include <algorithm>
+#include <glm/gtc/type_ptr.hpp>
 #include <new>
 
 namespace farol::render::gl {
@@ -60,13 +61,21 @@ void Target::bind(const glm::ivec4& viewport) const {
     api_.Viewport(viewport.x, viewport.y, viewport.z, viewport.w);
 }
 
-void Target::resolve(const Resolver& resolver) const {
+void Target::resolve(const Resolver& resolver, const std::vector<glm::ivec4>& parts,
+                     const glm::vec4& clearColor) const {
     if (format_.samples <= 1) return;
     api_.BindFramebuffer(GL_FRAMEBUFFER, resolved_.name());
     api_.UseProgram(resolver.program);
     api_.BindVertexArray(resolver.emptyArray);
     api_.BindTexture(GL_TEXTURE_2D_MULTISAMPLE, color_.name());
-    api_.DrawArrays(GL_TRIANGLES, 0, 3);
+    if (parts.empty()) return api_.DrawArrays(GL_TRIANGLES, 0, 3);
+    api_.ClearBufferfv(GL_COLOR, 0, glm::value_ptr(clearColor));
+    api_.Enable(GL_SCISSOR_TEST);
+    for (const glm::ivec4& part : parts) {
+        api_.Scissor(part.x, part.y, part.z, part.w);
+        api_.DrawArrays(GL_TRIANGLES, 0, 3);
+    }
+    api_.Disable(GL_SCISSOR_TEST);
 }
 
 void Target::read(int first, int rows, std::uint8_t* pixels) const {

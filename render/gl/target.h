@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <vector>
 
 #include "render/gl/objects.h"
 
@@ -35,8 +36,10 @@ class Target {
 
     /// Binds it, with a viewport (x, y, width, height) in its pixels, which may reach beyond it.
     void bind(const glm::ivec4& viewport) const;
-    /// Makes the picture of the samples, where there are samples.
-    void resolve(const Resolver& resolver) const;
+    /// Makes the image of the samples, where there are samples. `parts` (x, y, width, height), if
+    /// any, are all that differs from `clearColor`.
+    void resolve(const Resolver& resolver, const std::vector<glm::ivec4>& parts,
+                 const glm::vec4& clearColor) const;
     /// Reads `rows` rows from the row `first` above the lowest, the topmost first, 4 bytes a pixel,
     /// premultiplied alpha as drawn; resolved before.
     void read(int first, int rows, std::uint8_t* pixels) const;

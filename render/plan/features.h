@@ -51,6 +51,7 @@ enum class Feature : std::uint8_t {
     surfaceDiscUv,
     exactDepth,  ///< pixels have the surface's own depth, not its mesh's
     // Geometry.
+    carried,       ///< what fragments read comes from vertices, not from uniforms
     eyePositions,  ///< vertices were placed in double (MeshData::eyePositions)
     instanced,
     // Whole windows.

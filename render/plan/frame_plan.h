@@ -140,6 +140,7 @@ struct FrameStyle {
     scene::Transparency transparency = scene::Transparency::on;
     bool marksNotFinite = false;  ///< pixels with NaN or infinity are magenta
     bool mergesCalls = true;      ///< of models that differ in their place alone
+    bool crops = true;            ///< samples are resolved only where models are
     bool depthFirst = true;       ///< in a pass before the shading one, where that saves time
     glm::vec4 background{0.0F, 0.0F, 0.0F, 1.0F};
     int backgroundTexture = -1, skyboxTexture = -1;  ///< indices into FramePlan::textures
@@ -160,6 +161,9 @@ struct ShadowMap {
 struct FramePlan {
     ViewTransform view;
     std::vector<Pass> passes;  ///< in their order
+    /// Where a frame of one pass draws: x, y, width, height; px from the lower left. Empty:
+    /// anywhere.
+    std::vector<glm::ivec4> covered;
     // Tables that the passes draw from.
     std::vector<DrawItem> items;
     Batches batches;  ///< of the items

@@ -63,6 +63,33 @@ std::optional<PixelRect> pixelRect(const Box& box, const glm::dmat4& viewFromObj
     return rect;
 }
 
+std::optional<PixelRect> visibleRect(const Box& box, const glm::dmat4& viewFromObject,
+                                     const ViewTransform& view) {
+    const glm::dmat4 clipFromObject = view.clip * viewFromObject;
+    std::array<glm::dvec4, 8> corners;
+    for (int i = 0; i < 8; ++i)
+        corners[static_cast<std::size_t>(i)] = clipFromObject * glm::dvec4(box.corner(i), 1.0);
+    const auto behindNear = [](const glm::dvec4& p) { return p.w - p.z; };
+    std::optional<PixelRect> rect;
+    const auto add = [&](const glm::dvec4& p) {
+        const glm::dvec2 px = (glm::dvec2(p) / p.w + 1.0) * 0.5 * glm::dvec2(view.size);
+        if (!rect) rect = {px, px};
+        rect->min = glm::min(rect->min, px);
+        rect->max = glm::max(rect->max, px);
+    };
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const double depth = behindNear(corners[i]);
+        if (depth >= 0.0) add(corners[i]);
+        for (const std::size_t bit : {1U, 2U, 4U}) {  // along the edges
+            const glm::dvec4& other = corners[i ^ bit];
+            const double otherDepth = behindNear(other);
+            if (depth >= 0.0 && otherDepth < 0.0)
+                add(corners[i] + (other - corners[i]) * (depth / (depth - otherDepth)));
+        }
+    }
+    return rect;
+}
+
 double coveredArea(const std::optional<PixelRect>& rect, const glm::ivec2& size) {
     const glm::dvec2 whole(size);
     if (!rect) return whole.x * whole.y;

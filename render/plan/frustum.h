@@ -53,6 +53,10 @@ struct PixelRect {
 std::optional<PixelRect> pixelRect(const Box& box, const glm::dmat4& viewFromObject,
                                    const ViewTransform& view);
 
+/// Likewise of the part of the box that is not before the near plane; nothing where there is none.
+std::optional<PixelRect> visibleRect(const Box& box, const glm::dmat4& viewFromObject,
+                                     const ViewTransform& view);
+
 /// Area of the picture within the rectangle, px; all of it where there is none.
 double coveredArea(const std::optional<PixelRect>& rect, const glm::ivec2& size);
 

@@ -18,6 +18,20 @@ std::string keyOf(const scene::Model& model, const scene::Assets& assets) {
     return key;
 }
 
+/// At most 1: a ring covers little of its box.
+double filledPart(const generator::Mesh& mesh, const Box& bounds) {
+    double area = 0.0;
+    for (std::size_t i = 0; i + 2 < mesh.indices().size(); i += 3) {
+        const glm::vec3& a = mesh.positions()[mesh.indices()[i]];
+        area += 0.5 * static_cast<double>(
+                          glm::length(glm::cross(mesh.positions()[mesh.indices()[i + 1]] - a,
+                                                 mesh.positions()[mesh.indices()[i + 2]] - a)));
+    }
+    const glm::dvec3 side = bounds.max - bounds.min;
+    const double faces = side.x * side.y + side.y * side.z + side.z * side.x;
+    return faces > 0.0 && area < faces ? area / faces : 1.0;
+}
+
 }  // namespace
 
 std::uint64_t nextMeshId() {
@@ -45,6 +59,7 @@ std::shared_ptr<const MeshData> MeshLibrary::keep(const Key& key, generator::Mes
     }
     data->findings = std::move(findings);
     for (const glm::vec3& position : data->mesh.positions()) data->bounds.add(glm::dvec3(position));
+    data->filled = filledPart(data->mesh, data->bounds);
     data->flats = flatFacesOf(data->mesh);
     const std::size_t bytes = bytesOf(*data);
     return meshes_.put(key, std::move(data), bytes);

@@ -48,6 +48,7 @@ struct MeshData {
     std::uint64_t id = 0;
     generator::Mesh mesh;
     Box bounds;               ///< object space
+    double filled = 1.0;      ///< share of its box's sides that its triangles cover, about
     glm::dvec3 balance{1.0};  ///< generator::balancedScale, where the mesh was asked to be balanced
     double fullTurn = 0.0;    ///< generator::fullTurnOf, likewise
     std::vector<FlatFace> flats;  ///< its large flat parts (coplanar.h)

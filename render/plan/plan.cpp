@@ -53,6 +53,7 @@ class Planner {
         if (std::max(size.x, size.y) > gl_.maxTargetSide) failSize(size, gl_.maxTargetSide);
         style_.mergesCalls = skipping_.calls;
         style_.depthFirst = skipping_.hidden;
+        style_.crops = skipping_.background;
         style_.marksNotFinite = !skipping_.notFinite;
         const InstanceList& list = placed_.scene;
         chooseStyle(list);

@@ -26,6 +26,7 @@ struct Skipping {
     bool lights = true;          ///< lights that add nothing to a model
     bool calls = true;           ///< draw calls of models that differ in their place alone
     bool hidden = true;          ///< shading of pixels that another model covers later
+    bool background = true;      ///< samples where no model is
     bool notFinite = true;       ///< marks of pixels with NaN or infinity; off: they are magenta
 };
 

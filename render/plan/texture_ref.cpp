@@ -6,8 +6,8 @@ namespace farol::render {
 namespace {
 
 double lessTurns(double offset, bool clamp) {
-    constexpr double kFar = 32.0;
-    return clamp || !(std::abs(offset) > kFar) ? offset : offset - std::floor(offset);
+    constexpr double kFarTurns = 32.0;
+    return clamp || !(std::abs(offset) > kFarTurns) ? offset : offset - std::floor(offset);
 }
 
 }  // namespace

@@ -1,5 +1,4 @@
 #ifdef SURFACE
-uniform vec3 surfaceLengths;
 #if defined(TEXGEN_OBJECT) || defined(TEXGEN_EYE)
 uniform vec4 planeS;
 uniform vec4 planeT;

@@ -87,6 +87,53 @@ COVERED out vec3 positionView;
 out vec3 facePosition;
 #endif
 
+#ifdef CARRIED
+void carry() {
+    for (int i = 0; i < LIGHT_COUNT; ++i) {
+        carried.lightTo[i] = LIGHT_TO(i);
+#ifdef SHADOWED
+        carried.lightAmbient[i] = LIGHT_AMBIENT(i);
+#else
+        carried.lightAmbient[i] = AMBIENT(i);
+#endif
+        carried.lightDiffuse[i] = LIGHT_DIFFUSE(i);
+#ifdef POSITIONAL
+        carried.lightPlaced[i] = LIGHT_PLACED(i);
+        carried.lightAttenuation[i] = LIGHT_ATTENUATION(i);
+#endif
+#ifdef SPOT
+        carried.lightSpot[i] = LIGHT_SPOT(i);
+        carried.lightExponent[i] = LIGHT_EXPONENT(i);
+#endif
+#ifdef SPECULAR
+        carried.lightSpecular[i] = LIGHT_SPECULAR(i);
+#endif
+    }
+#ifdef SPECULAR
+    carried.materialSpecular = materialSpecular;
+    carried.materialShininess = materialShininess;
+#endif
+    carried.materialDiffuse = materialDiffuse;
+    carried.materialBase = materialBase;
+#ifdef SHADOWED
+    carried.materialAmbient = materialAmbient;
+#endif
+#ifdef SURFACE
+#ifndef INSTANCED
+    carried.normalFromObject = normalFromObject;
+#endif
+    carried.seenFrom = seenFrom;
+    carried.surfaceForm = surfaceForm;
+#ifdef TEXTURED
+    carried.surfaceLengths = surfaceLengths;
+    carried.surfaceUv = surfaceUv;
+    carried.surfaceDiscs = surfaceDiscs;
+    carried.balance = balance;
+#endif
+#endif
+}
+#endif
+
 void main() {
 #ifdef EYE_POSITIONS
     vec4 position = vec4(positionEye, 1.0);
@@ -94,6 +141,9 @@ void main() {
     vec4 position = viewFromObject * vec4(positionObject, 1.0);
 #endif
     gl_Position = clipFromView * position;
+#ifdef CARRIED
+    carry();
+#endif
 #ifdef TEXTURED
     uv = uvIn;
 #ifndef SURFACE

@@ -13,14 +13,9 @@ flat in float cap;  // of the flat parts: their normal's y; 0: the side
 COVERED in vec2 profileNormal;  // away from Y, along it
 COVERED in vec3 unitCovered;
 #endif
-// From unit gradients.
 #ifdef INSTANCED
-flat in mat3 normalFromObject;
-#else
-uniform mat3 normalFromObject;
+flat in mat3 normalFromObject;  // from unit gradients
 #endif
-uniform float seenFrom;         // 1: from outside, -1: the insides
-uniform vec2 surfaceForm;
 
 // t where the ray enters: the first root of a t^2 + 2 b t + c, without cancellation. Without a
 // root where the ray comes nearest: the mesh stands out of its surface there.
@@ -87,10 +82,6 @@ vec3 surfaceGradient(vec3 q) {
 }
 
 #ifdef TEXTURED
-uniform vec4 surfaceUv;
-uniform vec4 surfaceDiscs;
-uniform float balance;  // by which the mesh is wider than its coordinates
-
 // `near`: the triangle's interpolated coordinates, which select the whole turn of u.
 vec2 surfaceCoordinates(vec3 q, vec2 near) {
 #if defined(SURFACE_CAPS) && defined(SURFACE_RAY)

@@ -4,10 +4,10 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <functional>
 #include <limits>
 
 #include "render/plan/passes.h"
+#include "tests/support/lesser_context.h"
 #include "tests/support/plan_scene.h"
 
 // Frames planned by hand, drawn by GL, and held against the shading model evaluated here in
@@ -19,6 +19,7 @@ using render::EyeLight;
 using render::FramePlan;
 using render::gl::createContext;
 using render::gl::Painter;
+using support::LesserContext;
 
 namespace {
 
@@ -371,25 +372,6 @@ TEST_CASE("a pass that fills the depth alone hides what is behind it from the ne
     }
 }
 
-namespace {
-
-/// A real context that says less of itself.
-class Lesser final : public render::gl::Context {
-  public:
-    explicit Lesser(const std::function<void(render::GlFacts&)>& change) : facts_(real_->facts()) {
-        change(facts_);
-    }
-    void makeCurrent() override { real_->makeCurrent(); }
-    const render::gl::Api& api() const override { return real_->api(); }
-    const render::GlFacts& facts() const override { return facts_; }
-
-  private:
-    std::unique_ptr<render::gl::Context> real_ = createContext(render::GlSource::automatic);
-    render::GlFacts facts_;
-};
-
-}  // namespace
-
 TEST_CASE("a backend that is not there is named, the one that is says what it can do") {
     if (access("/dev/dri", F_OK) != 0)
         CHECK_THROWS_WITH(createContext(render::GlSource::eglGpu), Catch::Contains("egl:gpu"));
@@ -409,7 +391,8 @@ TEST_CASE("a backend that is not there is named, the one that is says what it ca
 
 TEST_CASE("without an extension for it, rows are turned over after reading") {
     Painter painter(createContext(render::GlSource::automatic));
-    Painter plain(std::make_unique<Lesser>([](render::GlFacts& gl) { gl.packInvert = false; }));
+    Painter plain(
+        std::make_unique<LesserContext>([](render::GlFacts& gl) { gl.packInvert = false; }));
     REQUIRE(painter.facts().packInvert);
     FramePlan plan = frame({light({1.0F, 0.5F, -3.0F, 1.0F})}, scene::Shading::phong, 7);
     for (const int samples : {1, 4, 8}) {
@@ -421,7 +404,7 @@ TEST_CASE("without an extension for it, rows are turned over after reading") {
 TEST_CASE("without multisampling targets are larger, and the picture about the same") {
     Painter painter(createContext(render::GlSource::automatic));
     Painter single(
-        std::make_unique<Lesser>([](render::GlFacts& gl) { gl.samplePatterns.clear(); }));
+        std::make_unique<LesserContext>([](render::GlFacts& gl) { gl.samplePatterns.clear(); }));
     FramePlan plan = frame({}, scene::Shading::phong);
     plan.items[0].viewFromObject[3].x = 4.0F + 0.03F;
     plan.style.samples = 16;

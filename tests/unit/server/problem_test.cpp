@@ -56,7 +56,7 @@ TEST_CASE("a problem's texts are in the language, its title and code are not") {
     const Problem problem = problemOf(404, message<"http.not-found/file">("name"_arg = "x.js"));
     const http::Response response = problemResponse(problem, "r1", Language::es);
     const json body = json::parse(response.body);
-    CHECK(body.at("detail") == "aquí no hay ningún fichero \"x.js\"");
+    CHECK(body.at("detail") == "aquí no hay ningún archivo \"x.js\"");
     CHECK(body.at("errors")[0].at("message") == body.at("detail"));
     CHECK(body.at("title") == "Not Found");
     CHECK(body.at("code") == "http.not-found");

@@ -8,7 +8,7 @@ import { FrameRate, median, parseServerTiming, splitLatency } from '../../../web
 const sleep = (ms: number): Promise<void> => new Promise((done) => setTimeout(done, ms));
 
 /** A loop whose answers come when the test says so. */
-function harness() {
+function harness(rested: (isAtRest: boolean) => void = () => undefined, retryMs: number | null = null) {
   const asked: (Ask & { answer: () => void; fail: (fault: unknown) => void; aborted: () => boolean })[] = [];
   const shown: Shown<string>[] = [], discarded: string[] = [], faults: unknown[] = [];
   const loop = new FrameLoop<string>({
@@ -19,9 +19,10 @@ function harness() {
     show: (one) => shown.push(one), discard: (one) => discarded.push(one),
     failed: (fault) => {
       faults.push(fault);
-      return null;
+      return retryMs;
     },
     now: () => performance.now(),
+    rested,
   });
   return { loop, asked, shown, discarded, faults, last: () => asked[asked.length - 1] };
 }
@@ -47,6 +48,50 @@ test('many movements wait as one, with the newest view', async () => {
   asked[0]?.answer();
   await sleep(0);
   assert.equal(asked.length, loop.pace.inFlight + 1);
+  loop.stop();
+});
+
+test('at rest is what shows the full picture of the last change, with nothing on its way', async () => {
+  const rests: boolean[] = [], { loop, last } = harness((isAtRest) => rests.push(isAtRest));
+  loop.settle();
+  assert.deepEqual(rests, [], 'it begins without rest');
+  last()?.answer();
+  await sleep(0);
+  assert.deepEqual(rests, [true]);
+  loop.move();
+  assert.deepEqual(rests, [true, false], 'at once');
+  last()?.answer(); // a small frame is no rest, nor is the time until the full picture is asked for
+  await sleep(restDelayMs + 60);
+  assert.equal(rests.length, 2);
+  last()?.answer();
+  await sleep(0);
+  assert.deepEqual(rests, [true, false, true]);
+  loop.hold(true);
+  loop.settle();
+  last()?.answer();
+  await sleep(0);
+  assert.deepEqual(rests, [true, false, true, false], 'while something plays there is none');
+  loop.hold(false);
+  assert.equal(rests.at(-1), true);
+  loop.settle();
+  last()?.fail(new Error('gone'));
+  await sleep(0);
+  assert.equal(rests.at(-1), false, 'what is on show is older than the last change');
+  loop.stop();
+});
+
+test('a failure is asked for again, unless something newer was asked for meanwhile', async () => {
+  const { loop, asked, last } = harness(undefined, 30);
+  loop.settle();
+  last()?.fail(new Error('busy'));
+  await sleep(60);
+  assert.equal(asked.length, 2, 'asked again');
+  last()?.fail(new Error('busy'));
+  await sleep(0);
+  loop.settle();
+  last()?.answer();
+  await sleep(60);
+  assert.equal(asked.length, 3, 'nothing is left to be asked for');
   loop.stop();
 });
 

@@ -142,6 +142,48 @@ test('an archive in an archive that cannot be unpacked hides nothing else', asyn
   assert.deepEqual(await paths(200), ['a.zip', 'a.zip/a.xml', 'b.zip']);
 });
 
+test('zip64: sizes, places and counts of 64 bits are read, and what claims more than there is is refused', async () => {
+  // Python writes zip64 where a number is above its limits: here all are.
+  const pack = (limit: number, isMarked = true): Blob => {
+    const bytes = spawnSync('python3', ['-c', `import io, sys, zipfile
+zipfile.ZIP64_LIMIT = zipfile.ZIP_FILECOUNT_LIMIT = ${limit}
+out = io.BytesIO()
+z = zipfile.ZipFile(out, 'w', zipfile.ZIP_DEFLATED)
+for name, angle in (('Ana Sá_7', 40), ('Bento_8', -40)):
+    with z.open(zipfile.ZipInfo(f'{name}_assignsubmission_file_/scene.xml'), 'w', force_zip64=True) as entry:
+        entry.write(f'<world angle="{angle}"/>'.encode() * 9)
+z.close()
+sys.stdout.buffer.write(out.getvalue())`]).stdout, at = bytes.lastIndexOf('PK\x05\x06', undefined, 'latin1');
+    if (isMarked) bytes.fill(0xff, at + 8, at + 20); // the numbers are in the record of 64 bits alone
+    return new Blob([bytes]);
+  };
+  for (const zip of [pack(1), pack(1, false), pack(1 << 30, false)]) {
+    const students = await classOf(zip);
+    assert.deepEqual(students?.map(({ name, identifier }) => [name, identifier]), [['Ana Sá', 'Participant 7'], ['Bento', 'Participant 8']]);
+    assert.equal(await listed(students?.[1]?.file as Blob), "None [('Bento_8_assignsubmission_file_/scene.xml', 180)]");
+    assert.equal((await sourceOf(zip, 'class.zip', 'scene.xml')).text, '<world angle="40"/>'.repeat(9));
+  }
+  const whole = Buffer.from(await pack(1).arrayBuffer()), end = whole.indexOf(Buffer.from('PK\x06\x06', 'latin1'));
+  const changed = (change: (bytes: Buffer) => void): Blob => {
+    const bytes = Buffer.from(whole);
+    change(bytes);
+    return new Blob([bytes]);
+  };
+  for (const at of [32, 40, 48]) {
+    assert.equal(await classOf(changed((bytes) => bytes.writeBigUInt64LE(0xffff_ffff_ffff_fff0n, end + at))), null, `number at ${at}`);
+    assert.equal(await classOf(changed((bytes) => bytes.writeBigUInt64LE(1n << 33n, end + at))), null, `number at ${at}`);
+  }
+  const locator = whole.indexOf(Buffer.from('PK\x06\x07', 'latin1'));
+  assert.equal(await classOf(changed((bytes) => bytes.writeBigUInt64LE(1n << 60n, locator + 8))), null, 'the end record elsewhere');
+  // The extra field of an entry: cut short, or with sizes that the file does not have.
+  const entry = whole.indexOf(Buffer.from('PK\x01\x02', 'latin1')), extra = entry + 46 + whole.readUInt16LE(entry + 28);
+  assert.equal(whole.readUInt16LE(extra), 1, 'the field of zip64');
+  assert.equal(await classOf(changed((bytes) => bytes.writeUInt16LE(8, extra + 2))), null, 'a number is missing');
+  assert.equal(await classOf(changed((bytes) => bytes.writeUInt16LE(0x9999, extra))), null, 'no such field');
+  await assert.rejects(classOf(changed((bytes) => bytes.writeBigUInt64LE(1n << 33n, extra + 12))), /scene\.xml is larger than 4 GB/);
+  await assert.rejects(classOf(changed((bytes) => bytes.writeBigUInt64LE(1n << 20n, extra + 12))), /The archive is damaged/);
+});
+
 test('a zip that the page writes is read by others', async () => {
   const zip = new ZipWriter();
   await zip.add('Ana Sá_1/feedback.html', new Blob(['<p>']));

@@ -121,3 +121,11 @@ test('no view shows a text that is not translated', () => {
   assert.deepEqual(bareTexts(sample).map((text) => text.replace(/^.*: /, '')), ['Two words', 'Yes', 'Hello', 'Done', 'It failed']);
   assert.deepEqual(sources.flatMap(bareTexts), []);
 });
+
+test('a thing has one name in a language, on the page and in the messages of the service', () => {
+  // The Spanish file, and what is done with it in Portuguese.
+  for (const [language, other] of [['es', /fichero/i], ['pt', /\b(junt(ar|e|a)|acrescent\w+)\b/i]] as const)
+    for (const folder of ['web/languages', 'core/languages'])
+      for (const [key, value] of Object.entries(JSON.parse(readFileSync(`${folder}/${language}.json`, 'utf8')) as Record<string, unknown>))
+        assert.doesNotMatch(JSON.stringify(value), other, `${folder}/${language}.json: ${key}`);
+});

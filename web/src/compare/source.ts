@@ -7,6 +7,7 @@ import { zipOf } from '../zip.ts';
 import { bodyOf, fetchPicture, type Origin } from '../scene/frame.ts';
 import { isImage, listFiles, noChanges, type FileChanges } from '../scene/scene_files.ts';
 import { newScene } from '../scene/template.ts';
+import { titleOf } from '../scene/title.ts';
 
 /** As an address names it: a scene's id, "draft:ID" ("draft:*" for a new scene), or "file:NAME". */
 export type SourceName = string;
@@ -69,7 +70,7 @@ async function openDraft(name: SourceName): Promise<Opened> {
   const key = name.slice('draft:'.length), id = key === '*' ? null : key, draft = loadDraft(id);
   const beside = await kept<{ files: FileChanges }>(`draft.${key}`), changes = beside?.files ?? noChanges;
   const text = draft?.text ?? (id === null ? newScene : await getSource(id)), origin: Origin = { id, text, loose: null, files: changes };
-  const facts = await validate(bodyOf(origin), id), title = facts.title || key;
+  const facts = await validate(bodyOf(origin), id), title = titleOf(id, facts.title, text);
   return sceneOf(name, title, { ...facts, id: id ?? '' }, origin, id === null ? '#/new' : pageOf(id));
 }
 
@@ -99,5 +100,5 @@ export async function openSource(name: SourceName): Promise<Opened | null> {
   if (name.startsWith('draft:')) return openDraft(name);
   if (name.startsWith('file:')) return openFiles(name);
   const facts = await getScene(name), origin: Origin = { id: name, text: null, loose: null, files: noChanges };
-  return sceneOf(name, facts.title || name, facts, origin, pageOf(name));
+  return sceneOf(name, titleOf(name, facts.title, facts.valid ? null : await getSource(name)), facts, origin, pageOf(name));
 }

@@ -33,6 +33,8 @@ export interface LoopHooks<Picture> {
   now(): number;
   /** Whether the full picture waits for the first small one, which shows how it is best sent. */
   waitsForLine?: boolean;
+  /** The full picture of the last change is on show and nothing is on its way or due; or no longer so. */
+  rested?(isAtRest: boolean): void;
 }
 
 /** After the last input, until the full picture is asked for. */
@@ -51,6 +53,8 @@ export class FrameLoop<Picture> {
   private restTimer: ReturnType<typeof setTimeout> | undefined;
   private retryTimer: ReturnType<typeof setTimeout> | undefined;
   private held = false; // while something plays there is no rest
+  private isFullShown = false;
+  private wasAtRest = false;
 
   constructor(private readonly hooks: LoopHooks<Picture>) {}
 
@@ -66,38 +70,56 @@ export class FrameLoop<Picture> {
     return this.moving === 0 && !this.rest && !this.wantsFrame && !this.wantsRest;
   }
 
+  private tellRest(): void {
+    const isDue = this.restTimer !== undefined || this.retryTimer !== undefined || this.restWaits;
+    const isAtRest = this.isFullShown && this.idle && !isDue && !this.held;
+    if (isAtRest !== this.wasAtRest) this.hooks.rested?.(isAtRest);
+    this.wasAtRest = isAtRest;
+  }
+
   /** Something moved: a small frame soon, the full picture when it has come to rest. */
   move(): void {
     this.wantsFrame = true;
     this.wantsRest = false;
     this.rest?.abort();
     this.rest = null;
-    clearTimeout(this.restTimer);
-    this.restWaits = false;
-    if (!this.held) this.restTimer = setTimeout(() => this.rested(), restDelayMs);
+    this.isFullShown = false;
+    this.planRest(!this.held);
     this.pump();
+    this.tellRest();
+  }
+
+  /** Whether the full picture is due a while from now. What failed before is not asked for any more. */
+  private planRest(isDue: boolean): void {
+    this.retryAfter(null);
+    clearTimeout(this.restTimer);
+    this.restTimer = isDue ? setTimeout(() => this.rested(), restDelayMs) : undefined;
+    this.restWaits = false;
   }
 
   private rested(): void {
+    this.restTimer = undefined;
     if (this.hooks.waitsForLine && !this.line.isKnown && this.moving > 0) this.restWaits = true;
     else this.settle();
   }
 
   /** The full picture, now. */
   settle(): void {
-    clearTimeout(this.restTimer);
-    this.restWaits = false;
+    this.planRest(false);
     this.wantsFrame = false;
     this.wantsRest = true;
     this.rest?.abort();
     this.rest = null;
+    this.isFullShown = false;
     this.pump();
+    this.tellRest();
   }
 
   /** While held (playing), movements are not followed by a full picture. */
   hold(held: boolean): void {
     this.held = held;
-    if (held) clearTimeout(this.restTimer);
+    if (held) this.planRest(false);
+    this.tellRest();
   }
 
   /** Another scene: nothing that is under way may be shown. */
@@ -108,13 +130,21 @@ export class FrameLoop<Picture> {
   }
 
   stop(): void {
-    clearTimeout(this.restTimer);
-    clearTimeout(this.retryTimer);
-    this.wantsFrame = this.wantsRest = this.restWaits = false;
+    this.planRest(false);
+    this.wantsFrame = this.wantsRest = this.isFullShown = false;
     this.rest?.abort();
     this.rest = null;
     this.generation += 1;
     this.moving = 0;
+    this.tellRest();
+  }
+
+  private retryAfter(ms: number | null): void {
+    clearTimeout(this.retryTimer);
+    this.retryTimer = ms === null ? undefined : setTimeout(() => {
+      this.retryTimer = undefined;
+      this.settle();
+    }, ms);
   }
 
   private pump(): void {
@@ -140,15 +170,14 @@ export class FrameLoop<Picture> {
         if (generation !== this.generation || seq <= this.shownSeq) this.hooks.discard(answer.picture);
         else {
           this.shownSeq = seq;
+          this.isFullShown = pace === null;
           if (pace) this.adaptation.add(latency);
           this.hooks.show({ picture: answer.picture, seq, moving: pace !== null, latency });
         }
       }
     } catch (fault) {
       if (generation === this.generation && !controller.signal.aborted) {
-        const wait = this.hooks.failed(fault);
-        clearTimeout(this.retryTimer);
-        if (wait !== null) this.retryTimer = setTimeout(() => this.settle(), wait);
+        this.retryAfter(this.hooks.failed(fault));
       }
     } finally {
       if (generation === this.generation) {
@@ -156,6 +185,7 @@ export class FrameLoop<Picture> {
         if (this.rest === controller) this.rest = null;
         if (this.restWaits && this.moving === 0) this.settle();
         this.pump();
+        this.tellRest();
       }
     }
   }

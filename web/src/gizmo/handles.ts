@@ -28,7 +28,8 @@ export function handlesOf(targets: Targets, tool: Tool): Handle[] {
   if (tool === 'turn') return targets.rings.map((ring, index) => ({ id: `turn-${ring.name || 'own'}-${index}`, tool, ring }));
   const target = tool === 'move' ? targets.move : targets.scale;
   if (!target || !inverse(target.frame)) return [];
-  const sets: readonly (readonly (0 | 1 | 2)[])[] = tool === 'move' ? [[0, 1, 2], [0, 1], [1, 2], [0, 2], [0], [1], [2]] : [[0, 1, 2], [0], [1], [2]];
+  // The last one is on top: the middle, which an arrow that points at the viewer would cover.
+  const sets: readonly (readonly (0 | 1 | 2)[])[] = tool === 'move' ? [[0, 1], [1, 2], [0, 2], [0], [1], [2], [0, 1, 2]] : [[0], [1], [2], [0, 1, 2]];
   return sets.map((along) => ({ id: `${tool}-${along.map((axis) => axisNames[axis]).join('')}`, tool, along, target }));
 }
 

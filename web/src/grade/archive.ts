@@ -1,9 +1,11 @@
 // Archives that are read where they lie: a zip's directory first, its members as they are needed.
 import { t } from '../words.ts';
 
-const signature = { local: 0x04034b50, entry: 0x02014b50, end: 0x06054b50 };
-const endBytes = 22, entryBytes = 46, localBytes = 30;
-const maxDirectoryBytes = 64 * 1024 * 1024;
+const signature = { local: 0x04034b50, entry: 0x02014b50, end: 0x06054b50, end64: 0x06064b50, locator64: 0x07064b50 };
+const endBytes = 22, end64Bytes = 56, locatorBytes = 20, entryBytes = 46, localBytes = 30;
+const inExtra16 = 0xffff, inExtra32 = 0xffffffff; // the number is in a field of 64 bits elsewhere (zip64)
+const extraOf64 = 1; // the kind of an entry's extra field
+const maxDirectoryBytes = 64 * 1024 * 1024, maxEntries = 100_000;
 const method = { stored: 0, deflated: 8 };
 export const isArchiveName = (path: string): boolean => /\.(zip|tar|tgz|gz|7z|rar)$/i.test(path);
 
@@ -28,14 +30,52 @@ function nameOf(bytes: Uint8Array): string {
 
 const view = async (blob: Blob): Promise<DataView> => new DataView(await blob.arrayBuffer());
 
-/** The files of a zip; null: it is none that can be read here. */
-export async function zipEntries(zip: Blob): Promise<ZipEntry[] | null> {
-  const tail = await view(zip.slice(Math.max(0, zip.size - endBytes - 65535)));
+const uint64 = (from: DataView, at: number): number => Number(from.getBigUint64(at, true)); // beyond 2^53 it is larger than any file
+
+/** Where a zip's directory is. */
+interface Directory {
+  count: number;
+  size: number;
+  begin: number;
+}
+
+async function findDirectory(zip: Blob): Promise<Directory | null> {
+  const tail = await view(zip.slice(Math.max(0, zip.size - endBytes - 65535 - locatorBytes)));
   let end = tail.byteLength - endBytes;
   while (end >= 0 && tail.getUint32(end, true) !== signature.end) --end;
   if (end < 0) return null;
   const count = tail.getUint16(end + 10, true), size = tail.getUint32(end + 12, true), begin = tail.getUint32(end + 16, true);
-  if (size > maxDirectoryBytes || begin + size > zip.size) return null;
+  if (count !== inExtra16 && size !== inExtra32 && begin !== inExtra32) return { count, size, begin };
+  const locator = end - locatorBytes;
+  if (locator < 0 || tail.getUint32(locator, true) !== signature.locator64) return { count, size, begin };
+  const at = uint64(tail, locator + 8), record = await view(zip.slice(at, at + end64Bytes));
+  if (record.byteLength < end64Bytes || record.getUint32(0, true) !== signature.end64) return null;
+  return { count: uint64(record, 32), size: uint64(record, 40), begin: uint64(record, 48) };
+}
+
+/** An entry's sizes and place: numbers of 32 bits, or of 64 in its extra field. Null: that field lacks one. */
+function extentOf(entry: DataView): Pick<ZipEntry, 'bytes' | 'packed' | 'offset'> | null {
+  const nameBytes = entry.getUint16(28, true), extraEnd = entryBytes + nameBytes + entry.getUint16(30, true);
+  let at = entryBytes + nameBytes;
+  while (at + 4 <= extraEnd && entry.getUint16(at, true) !== extraOf64) at += 4 + entry.getUint16(at + 2, true);
+  const end = at + 4 <= extraEnd ? Math.min(extraEnd, at + 4 + entry.getUint16(at + 2, true)) : 0;
+  at += 4;
+  const numbers = [24, 20, 42].map((place) => {
+    const value = entry.getUint32(place, true);
+    if (value !== inExtra32) return value;
+    at += 8;
+    return at <= end ? uint64(entry, at - 8) : Number.NaN;
+  });
+  const [bytes, packed, offset] = numbers as [number, number, number];
+  return numbers.every(Number.isSafeInteger) ? { bytes, packed, offset } : null;
+}
+
+/** The files of a zip; null: it is none that can be read here. */
+export async function zipEntries(zip: Blob): Promise<ZipEntry[] | null> {
+  const found = await findDirectory(zip);
+  if (!found) return null;
+  const { count, size, begin } = found;
+  if (count > maxEntries || size > maxDirectoryBytes || begin + size > zip.size) return null;
   const directory = await view(zip.slice(begin, begin + size));
   const entries: ZipEntry[] = [];
   for (let at = 0; entries.length < count;) {
@@ -43,10 +83,11 @@ export async function zipEntries(zip: Blob): Promise<ZipEntry[] | null> {
     const nameBytes = directory.getUint16(at + 28, true);
     const whole = entryBytes + nameBytes + directory.getUint16(at + 30, true) + directory.getUint16(at + 32, true);
     if (at + whole > size) return null;
+    const extent = extentOf(new DataView(directory.buffer, at, whole));
+    if (!extent) return null;
     entries.push({
       path: nameOf(new Uint8Array(directory.buffer, at + entryBytes, nameBytes)).replaceAll('\\', '/'),
-      bytes: directory.getUint32(at + 24, true), packed: directory.getUint32(at + 20, true),
-      offset: directory.getUint32(at + 42, true), method: directory.getUint16(at + 10, true),
+      ...extent, method: directory.getUint16(at + 10, true),
       record: new Uint8Array(directory.buffer, at, entryBytes).slice(),
     });
     at += whole;
@@ -59,6 +100,7 @@ async function packedBytes(zip: Blob, { offset, packed }: ZipEntry): Promise<Blo
   const local = await view(zip.slice(offset, offset + localBytes));
   if (local.byteLength < localBytes || local.getUint32(0, true) !== signature.local) throw new Error(t('The archive is damaged'));
   const data = offset + localBytes + local.getUint16(26, true) + local.getUint16(28, true);
+  if (data + packed > zip.size) throw new Error(t('The archive is damaged'));
   return zip.slice(data, data + packed);
 }
 
@@ -68,7 +110,11 @@ export async function repacked(zip: Blob, entries: readonly (ZipEntry & { name: 
   let size = 0, directorySize = 0;
   for (const one of entries) {
     const name = new TextEncoder().encode(one.name), entry = new DataView(one.record.slice().buffer);
+    if (Math.max(one.bytes, one.packed, size) >= inExtra32) throw new Error(t('{name} is larger than 4 GB', { name: one.name }));
+    if (entry.getUint16(6, true) === 45) entry.setUint16(6, 20, true); // no zip64 any more
     entry.setUint16(8, (entry.getUint16(8, true) & ~8) | 0x800, true); // sizes in the header, a name in UTF-8
+    entry.setUint32(20, one.packed, true);
+    entry.setUint32(24, one.bytes, true);
     entry.setUint16(28, name.length, true);
     entry.setUint16(30, 0, true); // no extra field, no comment
     entry.setUint16(32, 0, true);

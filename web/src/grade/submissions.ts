@@ -125,7 +125,7 @@ export async function submissionsOf(files: readonly NamedFile[], tasks: readonly
   for (const one of kept) {
     const isZip = /\.zip$/i.test(one.path) && !moodlePrefix(one.path.split('/')[0] as string), members = isZip ? await classOf(one.file, tasks) : null;
     if (isZip && !members && one.file.size > maxSentBytes && !(await zipEntries(one.file)))
-      throw new Error(t('{name} cannot be read: it is damaged, or larger than 4 GB. Unpack it and choose the folder.', { name: one.path }));
+      throw new Error(t('{name} cannot be read: it is damaged, or no zip that this page knows. Unpack it and choose the folder.', { name: one.path }));
     if (members) classes.push(...members);
     else rest.push(one);
   }

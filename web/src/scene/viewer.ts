@@ -17,6 +17,7 @@ import { missingOf, type FileChanges } from './scene_files.ts';
 import { retryAfterS, sceneFaultOf, stateOf, wholeFindings, type Fault } from './state.ts';
 import { cameraOptions, qualityOptions, sizeOptions, type Quality, type StageSize } from './picture_options.ts';
 import { bodyOf, decodeFrame, fetchPicture, newSession, type Frame, type Origin } from './frame.ts';
+import { titleOf } from './title.ts';
 import { t } from '../words.ts';
 
 export interface Hud {
@@ -48,9 +49,17 @@ export class Viewer extends EditedScene {
   readonly pictured = signal(false);
   readonly fault = signal<Fault | null>(null); // of the last request; null: it gave a picture
   readonly state = computed(() => stateOf(this.fault.value, this.pictured.value, this.findings.value));
+  /** The image on show is the full one of the scene and the view as they are now. */
+  readonly atRest = computed(() => this.loopRests.value && !this.redrawIsDue.value);
   readonly frame = signal<{ camera: LookAt | null; moving: boolean } | null>(null); // of the image on show
   readonly tool = signal<SceneTool>('move'); // what the image is handled with
   readonly reveal = signal<{ line: number; column: number } | null>(null); // a place the editor goes to
+  readonly title = computed(() => {
+    const facts = this.facts.value, isUnread = facts?.valid === false;
+    if (this.id === null) return facts?.title || (this.loose?.main ?? t('Your scene'));
+    if (facts === null) return this.id.startsWith('~') ? t('Scene') : titleOf(this.id, '', null);
+    return titleOf(this.id, facts.title, isUnread ? this.original.value : null);
+  });
   readonly missing = computed(() => missingOf(this.findings.value)); // files that the document names
   readonly keys = signal<readonly Key[]>([]); // of its animation
   readonly clock: SceneClock;
@@ -58,6 +67,8 @@ export class Viewer extends EditedScene {
   home: LookAt | null = null;
   canvas: Canvas | null = null;
 
+  private readonly loopRests = signal(false);
+  private readonly redrawIsDue = signal(false); // in a while, after typing
   private readonly session = newSession();
   private readonly rate = new FrameRate();
   private readonly loop: FrameLoop<Frame>;
@@ -96,6 +107,7 @@ export class Viewer extends EditedScene {
       failed: (fault) => this.failed(fault),
       now: () => performance.now(),
       waitsForLine: true,
+      rested: (isAtRest) => (this.loopRests.value = isAtRest),
     });
   }
 
@@ -161,8 +173,12 @@ export class Viewer extends EditedScene {
   protected redraw(how: Editing): void {
     clearTimeout(this.typeTimer);
     this.keepLink();
+    this.redrawIsDue.value = how !== 'dragging';
     if (how === 'dragging') this.loop.move();
-    else this.typeTimer = setTimeout(() => this.loop.settle(), how === 'typing' ? 220 : 0);
+    else this.typeTimer = setTimeout(() => batch(() => {
+      this.redrawIsDue.value = false;
+      this.loop.settle();
+    }), how === 'typing' ? 220 : 0);
   }
 
   /** What the service knows of the document as it is edited now; null where it cannot be read. */

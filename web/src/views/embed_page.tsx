@@ -17,7 +17,7 @@ export function EmbedPage({ id, view }: { id: string; view: URLSearchParams }) {
     void viewer.open(parseView(view), newScene);
     return () => viewer.close();
   }, [viewer]);
-  const title = viewer.facts.value?.title || id;
+  const title = viewer.title.value;
   useEffect(() => {
     document.title = `${title} · Farol`;
   }, [title]);

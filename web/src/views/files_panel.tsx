@@ -106,7 +106,7 @@ export function FilesPanel({ viewer }: { viewer: Viewer }) {
   const own = useMemo(() => new Set(files.map((one) => one.path)), [came, changes]);
   if (problem) return <p class="problem" role="alert">{problem}</p>;
   if (!came || text === null) return <p class="note">{t('Loading…')}</p>;
-  const title = viewer.facts.value?.title || t('Scene'), glb = viewer.edited.value ? undefined : viewer.facts.value?.links.model;
+  const title = viewer.title.value, glb = viewer.edited.value ? undefined : viewer.facts.value?.links.model;
   const add = (given: readonly NamedFile[]): void => attempt(() => addFiles(viewer, given));
   return (
     <div class="sections" {...dropHere(add)}>

@@ -3,6 +3,7 @@ import { signal } from '@preact/signals';
 import { useEffect, useRef, useState } from 'preact/hooks';
 import { faultOf, findingsOf, listScenes, sentence, type SceneFacts } from '../api.ts';
 import { scenePlace, searchWords as words } from '../router.ts';
+import { titleOf } from '../scene/title.ts';
 import { thumbnail } from '../thumbnails.ts';
 import { pickFiles } from '../upload.ts';
 import { Icon } from './icons.tsx';
@@ -83,7 +84,7 @@ function Card({ scene }: { scene: SceneFacts }) {
           {scene.animated && <span class="badge"><Icon name="play" />{t('animated')}</span>}
         </div>
         <div class="words">
-          <h2>{scene.title}</h2>
+          <h2>{titleOf(scene.id, scene.title, null)}</h2>
           <p class="description">{scene.valid ? scene.description : fault ? sentence(fault) : t('This scene cannot be read.')}</p>
           {scene.valid && <p class="facts">{facts(scene).map((text) => <span key={text}>{text}</span>)}</p>}
         </div>

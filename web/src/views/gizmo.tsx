@@ -15,6 +15,7 @@ import { t } from '../words.ts';
 import { focusStage } from './stage.tsx';
 
 const armLength = 92; // CSS pixels
+const minArm = 28; // CSS pixels, as it is seen
 const segments = 64; // of a ring
 const minDrag = 3; // CSS pixels
 
@@ -79,7 +80,7 @@ function shapeOf(handle: Handle, lens: Lens): Shape | null {
   const end = lens.project(add(middle, arm(along[0] as number, 1)));
   if (!end) return null;
   const size = Math.hypot(end.x - at.x, end.y - at.y);
-  if (size < 14) return null; // it points at the viewer
+  if (size < minArm) return null; // it points at the viewer: a pixel would be far
   const [dx, dy] = [(end.x - at.x) / size, (end.y - at.y) / size], start = { x: at.x + dx * 12, y: at.y + dy * 12 };
   const tip = handle.tool === 'move'
     ? `M${end.x.toFixed(1)} ${end.y.toFixed(1)}l${(-13 * dx - 6 * dy).toFixed(1)} ${(-13 * dy + 6 * dx).toFixed(1)}l${(12 * dy).toFixed(1)} ${(-12 * dx).toFixed(1)}z`

@@ -1,11 +1,12 @@
 // The tools for what is selected, over the left edge of the image.
+import { useState } from 'preact/hooks';
 import type { SceneTool, Viewer } from '../scene/viewer.ts';
 import { setSnapping, snapping } from '../gizmo/settings.ts';
 import { lineOf } from '../scene/xml.ts';
 import { msg, number, t } from '../words.ts';
 import type { IconName } from './icons.tsx';
 import { targetsNow } from './gizmo.tsx';
-import { Tool } from './ui.tsx';
+import { Tool, toolbarKeys } from './ui.tsx';
 import { openPanel } from './viewer_page.tsx';
 
 const tools: readonly (readonly [SceneTool, IconName, string, string])[] = [
@@ -48,14 +49,17 @@ function Motions({ viewer }: { viewer: Viewer }) {
 }
 
 export function GizmoBar({ viewer }: { viewer: Viewer }) {
+  const [focused, setFocused] = useState<number | null>(null); // the one stop of Tab; first the tool that is chosen
+  const stop = focused ?? tools.findIndex(([tool]) => tool === viewer.tool.value), stopAt = (index: number): 0 | -1 => (index === stop ? 0 : -1);
   const { isOn, steps } = snapping.value, hasHandles = !['select', 'measure'].includes(viewer.tool.value), why = hasHandles ? whyNoHandles(viewer) : '';
   return (
     <>
-      <div class="gizmo-bar" role="toolbar" aria-label={t('Handles of what is selected')} aria-orientation="vertical">
-        {tools.map(([tool, icon, label, key]) => (
-          <Tool key={tool} icon={icon} label={t(label)} keys={key} pressed={viewer.tool.value === tool} onClick={() => (viewer.tool.value = tool)} />
+      <div class="gizmo-bar" role="toolbar" aria-label={t('Handles of what is selected')} aria-orientation="vertical" onKeyDown={toolbarKeys}
+        onFocusCapture={(event) => setFocused([...event.currentTarget.querySelectorAll('button')].indexOf(event.target as HTMLButtonElement))}>
+        {tools.map(([tool, icon, label, key], index) => (
+          <Tool key={tool} icon={icon} label={t(label)} keys={key} tabIndex={stopAt(index)} pressed={viewer.tool.value === tool} onClick={() => (viewer.tool.value = tool)} />
         ))}
-        <Tool icon="magnet" label={t('Snap to steps of {move}, {turn}°, {scale}', { ...steps })} keys="Shift" pressed={isOn} onClick={() => setSnapping({ steps, isOn: !isOn })} />
+        <Tool icon="magnet" label={t('Snap to steps of {move}, {turn}°, {scale}', { ...steps })} keys="Shift" tabIndex={stopAt(tools.length)} pressed={isOn} onClick={() => setSnapping({ steps, isOn: !isOn })} />
       </div>
       <div class="gizmo-notes" role="status">
         {why && <p class="gizmo-note">{why}</p>}

@@ -70,7 +70,7 @@ function Unstored({ viewer }: { viewer: Viewer }) {
 export function ShareDialog({ viewer }: { viewer: Viewer }) {
   const dialog = useRef<HTMLDialogElement>(null);
   useEffect(() => dialog.current?.showModal(), []);
-  const { id } = viewer, facts = viewer.facts.value, title = facts?.title || t('Scene'), unstored = id === null || viewer.edited.value;
+  const { id } = viewer, facts = viewer.facts.value, title = viewer.title.value, unstored = id === null || viewer.edited.value;
   const until = facts?.expires && new Date(facts.expires).toLocaleDateString(language.value);
   const own = !facts?.upload ? '' : until ? t('It was uploaded and is kept until {date}; everyone who has its link sees it.', { date: until })
     : t('It was uploaded; everyone who has its link sees it.');

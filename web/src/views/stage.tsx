@@ -47,9 +47,9 @@ export function Stage({ viewer, actions, preview }: { viewer: Viewer; actions: A
     if (byKeys.current) announce(viewWords(viewer));
     byKeys.current = false;
   }, [viewer.still.value]);
-  const title = viewer.facts.value?.title || t('Your scene');
+  const title = viewer.title.value;
   return (
-    <div class="stage" ref={stage} tabIndex={0} role="application" onKeyDown={(event) => (byKeys.current ||= event.target === stage.current && event.key !== 'Tab')} aria-label={t('{title}. Drag or arrow keys orbit, right drag or two fingers pan, wheel or plus and minus zoom, W A S D move the focus, R resets, Space plays', { title })} aria-busy={viewer.state.value === 'loading'}>
+    <div class="stage" ref={stage} tabIndex={0} role="application" onKeyDown={(event) => (byKeys.current ||= event.target === stage.current && event.key !== 'Tab')} aria-label={t('{title}. Drag or arrow keys orbit, right drag or two fingers pan, wheel or plus and minus zoom, W A S D move the focus, R resets, Space plays', { title })} aria-busy={viewer.state.value === 'loading'} data-rest={String(viewer.atRest.value)}>
       <canvas ref={canvas} role="img" aria-label={t('Image of {title}', { title })} class={viewer.pictured.value ? '' : 'blank'} width={16} height={9} />
       {preview && !viewer.pictured.value && <img class="preview" alt="" src={preview} onError={(event) => event.currentTarget.remove()} />}
       <HudView viewer={viewer} />

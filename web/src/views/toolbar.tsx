@@ -6,7 +6,7 @@ import { saveBlob } from './save.ts';
 import { lazyView } from './lazy.tsx';
 import { hadHelp, sharing, showHelp } from './sharing.ts';
 import { redo, undo } from './steps.ts';
-import { say, Tool } from './ui.tsx';
+import { say, Tool, toolbarKeys } from './ui.tsx';
 import { msg, t } from '../words.ts';
 
 const Help = lazyView(() => import('./help_dialog.tsx').then((module) => module.Help));
@@ -31,7 +31,7 @@ export function Toolbar({ viewer }: { viewer: Viewer }) {
     else void document.querySelector('.view')?.requestFullscreen().catch(() => say(t('The browser does not allow full screen.')));
   };
   return (
-    <div class="toolbar" role="toolbar" aria-label={t('Scene')}>
+    <div class="toolbar" role="toolbar" aria-label={t('Scene')} onKeyDown={toolbarKeys}>
       <div class="tools">
         <Tool icon="undo" label={t('Undo')} shows="below" keys="Ctrl+Z" disabled={!viewer.canUndo.value} onClick={() => undo(viewer)} />
         <Tool icon="redo" label={t('Redo')} shows="below" keys="Ctrl+Shift+Z" disabled={!viewer.canRedo.value} onClick={() => redo(viewer)} />

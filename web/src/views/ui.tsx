@@ -48,17 +48,32 @@ interface ToolProps {
   pressed?: boolean;
   disabled?: boolean;
   id?: string;
+  tabIndex?: 0 | -1;
   onClick: () => void;
 }
 
-export const Tool = ({ icon, label, shows, hint, keys, pressed, disabled, id, onClick }: ToolProps) => (
+export const Tool = ({ icon, label, shows, hint, keys, pressed, disabled, id, tabIndex, onClick }: ToolProps) => (
   <button
     type="button" class={shows === 'beside' ? 'tool worded' : 'tool'} aria-label={label} {...pressable(!disabled, onClick)} {...(id ? { id } : {})}
+    {...(tabIndex === undefined ? {} : { tabIndex })}
     title={keys ? `${hint ?? label} (${keys})` : (hint ?? label)} {...(pressed === undefined ? {} : { 'aria-pressed': pressed })}
   >
     <Icon name={icon} />{shows && <span {...(shows === 'below' ? { class: 'short' } : {})}>{label}</span>}
   </button>
 );
+
+const arrows: Record<string, number> = { ArrowDown: 1, ArrowRight: 1, ArrowUp: -1, ArrowLeft: -1, Home: -Infinity, End: Infinity };
+
+/** Moves the focus among the buttons of a toolbar: by arrows, round at its ends, and to its first and last. */
+export function toolbarKeys(event: KeyboardEvent): void {
+  const step = arrows[event.key];
+  if (step === undefined || event.ctrlKey || event.altKey || event.metaKey) return;
+  const tools = [...(event.currentTarget as Element).querySelectorAll('button')].filter((one) => one.getClientRects().length > 0 && !one.closest('dialog')), at = tools.indexOf(event.target as HTMLButtonElement);
+  if (at < 0) return;
+  event.preventDefault();
+  const next = step === -Infinity ? 0 : step === Infinity ? tools.length - 1 : (at + step + tools.length) % tools.length;
+  tools[next]?.focus();
+}
 
 export const Check = ({ label, checked, onChange }: { label: string; checked: boolean; onChange: (on: boolean) => void }) => (
   <label class="check">

@@ -7,6 +7,7 @@ import { createRequire } from 'node:module';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { reportFiles } from '../../web/report_files.mjs';
+import { chromiumPath } from './chromium.mjs';
 
 const here = dirname(fileURLToPath(import.meta.url));
 const root = join(here, '../..'), packages = join(root, 'build/web');
@@ -71,7 +72,7 @@ if (kind === 'bundle') {
   });
   run(sources.map((name) => join(out, name.replace(/\.ts$/, '.mjs'))));
 } else if (kind === 'e2e') {
-  if (!['/usr/bin/chromium', process.env.FAROL_CHROMIUM].some((path) => path && existsSync(path))) skip('there is no Chromium (package chromium)');
+  if (!chromiumPath) skip('there is no Chromium (package chromium-headless-shell, or chromium)');
   const all = readdirSync(join(here, 'e2e')).filter((name) => name.endsWith('.test.mjs'));
   // One after the other: each has a server and a browser of its own.
   run((names.length ? names : all).map((name) => join(here, 'e2e', name)), ['--test-concurrency=1']);

@@ -1,4 +1,5 @@
-// axe-core over every view, light and dark, wide and narrow; and that nothing is wider than a phone.
+// axe-core over the views of the gallery and of a scene, light and dark, wide and narrow; and that nothing is wider than a
+// phone. The grade page's states, the comparison and others have it in their own files.
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
 import { axeFindings, launch, openPage, settled, startServer } from './fixture.mjs';
@@ -24,22 +25,6 @@ const views = {
     },
   },
   editor: { hash: '#/new', ready: (view) => view.page.locator('.cm-content').waitFor() },
-  grade: {
-    hash: '#/grade', async ready(view) {
-      const file = (name, text) => ({ name, mimeType: 'text/xml', buffer: Buffer.from(text) });
-      const scene = (model) => `<world><group><models><model file="${model}"/></models></group></world>`;
-      for (const [button, files] of [
-        ['Reference: choose files', [file('reference.xml', scene('box_1_2.3d'))]],
-        ['Submissions: choose files', [file('a.xml', scene('box_1_2.3d')), file('b.xml', scene('sphere_1_16_8.3d')), file('c.xml', '<world>')]],
-      ]) {
-        const [chooser] = await Promise.all([view.page.waitForEvent('filechooser'), view.page.getByRole('button', { name: button }).click()]);
-        await chooser.setFiles(files);
-      }
-      await view.page.getByRole('button', { name: 'Grade', exact: true }).click();
-      await view.page.getByText('3 graded.').waitFor({ timeout: 120000 });
-      await view.page.locator('#list tbody tr', { hasText: 'b.xml' }).click();
-    },
-  },
 };
 const looks = [{ colorScheme: 'light', viewport: { width: 1280, height: 800 } }, { colorScheme: 'dark', viewport: { width: 360, height: 740 } }];
 

@@ -1,7 +1,7 @@
 // Two scenes compared: one camera, every way to show them, findings with lines, links, files and images.
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
-import { axeFindings, launch, openPage, settled, startServer } from './fixture.mjs';
+import { axeFindings, draft, launch, openPage, settled, startServer } from './fixture.mjs';
 
 let server, browser;
 before(async () => {
@@ -12,7 +12,7 @@ after(async () => {
   await server?.stop();
 });
 
-const wide = { viewport: { width: 1280, height: 800 } };
+const wide = { viewport: { width: 1000, height: 640 } };
 /** Until nothing newer is on its way, and so many images rest. */
 const rest = ({ page }, expected = 2) => page.waitForFunction((count) => {
   const stage = document.querySelector('.compare-stage[aria-busy=false]');
@@ -25,14 +25,8 @@ const open = async (first, second, options = {}) => {
 };
 /** Edits of the scene torch, as they are in a browser: the torch one to the right. */
 const openDraft = async (options = {}) => {
-  const view = await openPage(browser, `${server.url}/#/grade`, { ...wide, ...options });
-  await view.page.evaluate(async () => {
-    const source = await (await fetch('v1/scenes/torch/source')).text();
-    localStorage.setItem('farol.draft.torch', JSON.stringify({ text: source.replace('x="-2.35"', 'x="-1.35"'), base: '' }));
-  });
-  await view.page.goto(`${server.url}/#/compare/torch/${encodeURIComponent('draft:torch')}`);
-  await rest(view);
-  return view;
+  const source = await (await fetch(`${server.url}/v1/scenes/torch/source`)).text();
+  return open('torch', 'draft:torch', { ...options, remembered: draft('torch', source.replace('x="-2.35"', 'x="-1.35"')) });
 };
 const mode = async (view, name) => {
   await view.page.getByRole('group', { name: 'How they are shown' }).getByRole('button', { name }).click();
@@ -192,7 +186,7 @@ test('a scene of files and a scene that is not there', async () => {
 });
 
 test('no serious finding of axe in each way to compare, light and dark, wide and phone', async () => {
-  for (const look of [{ colorScheme: 'light', ...wide }, { colorScheme: 'dark', viewport: { width: 360, height: 740 } }]) {
+  for (const look of [{ colorScheme: 'light', viewport: { width: 1280, height: 800 } }, { colorScheme: 'dark', viewport: { width: 360, height: 740 } }]) {
     const view = await openDraft({ ...look, bypassCSP: true });
     for (const name of ['Side by side', 'Slider', 'In turn', 'Difference']) {
       await mode(view, name);

@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { after, before, test } from 'node:test';
-import { canvasPixels, close, launch, openPage, picturePixels, settled, startServer } from './fixture.mjs';
+import { canvasPixels, close, draftOf, launch, openPage, picturePixels, settled, startServer, until } from './fixture.mjs';
 
 let server, browser;
 before(async () => {
@@ -23,10 +23,7 @@ const last = (view) => view.full().at(-1);
 async function asks(view, act) {
   const before = view.full().length;
   await act();
-  for (let i = 0; view.full().length === before; ++i) {
-    assert.ok(i < 100, 'no picture was asked for');
-    await view.page.waitForTimeout(50);
-  }
+  await until(() => view.full().length > before, 'no picture was asked for');
   await settled(view);
   return last(view);
 }
@@ -91,7 +88,7 @@ test('two fingers side by side pan', async () => {
 
 /** Sets and takes back each [option, value, set, unset]: asked for, drawn otherwise, and as before. */
 async function checkSettings(scene, settingsOf) {
-  const view = await openScene(scene, { viewport: { width: 1200, height: 1000 } });
+  const view = await openScene(scene, { viewport: { width: 1000, height: 700 } });
   const { page } = view;
   await asks(view, () => page.getByRole('button', { name: 'Panel' }).click());
   const own = (await canvasPixels(page)).digest;
@@ -99,10 +96,7 @@ async function checkSettings(scene, settingsOf) {
     const begun = view.pictures.length;
     await set();
     const wanted = () => view.pictures.slice(begun).find((one) => one[option] === value && one.scale === undefined);
-    for (let i = 0; !wanted(); ++i) {
-      assert.ok(i < 100, `${option}=${value} was not asked for`);
-      await page.waitForTimeout(50);
-    }
+    await until(wanted, `${option}=${value} was not asked for`);
     await page.waitForFunction((seq) => Number(document.querySelector('.stage canvas').dataset.seq) >= seq, Number(wanted().seq));
     assert.notEqual((await canvasPixels(page)).digest, own, `${option}=${value} draws the same`);
     await asks(view, unset);
@@ -154,7 +148,7 @@ test('the background is chosen, and given back to the scene', async () => {
 });
 
 test('curves are drawn where the scene has some, and the counts tell what was culled', async () => {
-  const view = await openScene('solar-system', { viewport: { width: 1200, height: 900 } });
+  const view = await openScene('solar-system', { viewport: { width: 1000, height: 700 } });
   await asks(view, () => view.page.getByRole('button', { name: 'Panel' }).click());
   const before = (await canvasPixels(view.page)).digest;
   assert.equal((await asks(view, () => view.page.getByRole('checkbox', { name: 'Curves' }).check())).curves, '1');
@@ -209,10 +203,7 @@ test('the turntable goes round in small frames, and stops at a full picture', as
   const view = await openScene('torch');
   const before = view.moving().length, rested = view.full().length;
   await view.page.keyboard.press('t');
-  for (let i = 0; view.moving().length < before + 6; ++i) {
-    assert.ok(i < 200, 'it does not turn');
-    await view.page.waitForTimeout(50);
-  }
+  await until(() => view.moving().length >= before + 6, 'it does not turn');
   assert.equal(view.full().length, rested, 'no full picture while it turns');
   const stopped = await asks(view, () => view.page.keyboard.press('t'));
   const azimuths = [...view.moving().slice(before).map((one) => Number(one.azimuth)), Number(stopped.azimuth)];
@@ -241,7 +232,7 @@ test('light and dark are chosen, and stay', async () => {
 });
 
 test('the inspector changes a model’s material and texture in the XML', async () => {
-  const view = await openScene('solar-system', { viewport: { width: 1200, height: 900 } });
+  const view = await openScene('solar-system', { viewport: { width: 1000, height: 700 } });
   await view.page.getByRole('button', { name: 'Panel' }).click();
   await view.page.getByRole('tab', { name: 'Inspect' }).click();
   await view.page.getByRole('searchbox', { name: 'Find a light or model' }).fill('Sun');
@@ -257,8 +248,7 @@ test('the inspector changes a model’s material and texture in the XML', async 
   assert.notEqual(other, before);
   const glowing = await drawn(() => view.page.getByRole('slider', { name: 'Emissive red' }).fill('0'));
   assert.notEqual(glowing, other);
-  await view.page.waitForTimeout(300); // the draft is written a moment after the last change
-  const draft = await view.page.evaluate(() => JSON.parse(localStorage.getItem('farol.draft.solar-system')).text);
+  const draft = await draftOf(view, 'solar-system');
   const sun = draft.slice(draft.indexOf('<group name="Sun">'), draft.indexOf('</models>'));
   assert.match(sun, /<texture file="earth\.jpg"/);
   assert.match(sun, /<emissive R="0"/);

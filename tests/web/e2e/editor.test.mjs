@@ -4,7 +4,7 @@ import { mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync, cpSync } f
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
-import { axeFindings, canvasPixels, launch, openPage, root, settled, startServer } from './fixture.mjs';
+import { axeFindings, canvasPixels, draftOf, launch, openPage, root, settled, startServer } from './fixture.mjs';
 
 let server, browser, scratch;
 before(async () => {
@@ -37,10 +37,9 @@ async function typeAfter(view, text, typed, erase = 0) {
 }
 /** The lines that carry a squiggle of that severity. */
 const marked = (view, severity) => view.page.locator(`.cm-line:has(.cm-lintRange-${severity})`).allInnerTexts();
-const draftOf = (view, id) => view.page.evaluate((key) => JSON.parse(localStorage.getItem(key))?.text ?? null, `farol.draft.${id}`);
 
 test('what is typed is drawn; an error marks its line and names the fix', async () => {
-  const view = await openPage(browser, `${server.url}/#/scene/torch`, { viewport: { width: 1200, height: 800 } });
+  const view = await openPage(browser, `${server.url}/#/scene/torch`, { viewport: { width: 1000, height: 640 } });
   await settled(view);
   await openEditor(view);
   const source = await (await fetch(`${server.url}/v1/scenes/torch/source`)).text();
@@ -74,7 +73,7 @@ test('what is typed is drawn; an error marks its line and names the fix', async 
 });
 
 test('edits outlive a reload, and can be given up', async () => {
-  const view = await openPage(browser, `${server.url}/#/scene/torch`, { viewport: { width: 1200, height: 800 } });
+  const view = await openPage(browser, `${server.url}/#/scene/torch`, { viewport: { width: 1000, height: 640 } });
   await settled(view);
   await openEditor(view);
   const before = await canvasPixels(view.page);
@@ -93,7 +92,7 @@ test('edits outlive a reload, and can be given up', async () => {
 });
 
 test('completion offers the elements and attributes of the schema', async () => {
-  const view = await openPage(browser, `${server.url}/#/new`, { viewport: { width: 1200, height: 800 } });
+  const view = await openPage(browser, `${server.url}/#/new`, { viewport: { width: 1000, height: 640 } });
   await settled(view);
   await view.page.locator('.cm-content').waitFor();
   await typeAfter(view, '<light type="directional"', ' cu');
@@ -131,7 +130,7 @@ test('the reference shows the element at the cursor, marks the attribute, and ca
 });
 
 test('a click on a pixel selects the line of its model', async () => {
-  const view = await openPage(browser, `${server.url}/#/scene/solar-system`, { viewport: { width: 1200, height: 800 } });
+  const view = await openPage(browser, `${server.url}/#/scene/solar-system`, { viewport: { width: 1000, height: 640 } });
   await settled(view);
   await openEditor(view);
   const area = await view.page.locator('.stage').boundingBox();
@@ -162,7 +161,7 @@ test('a click on a pixel selects the line of its model', async () => {
 });
 
 test('the inspector’s sliders write into the XML and leave its lines', async () => {
-  const view = await openPage(browser, `${server.url}/#/scene/torch`, { viewport: { width: 1200, height: 800 } });
+  const view = await openPage(browser, `${server.url}/#/scene/torch`, { viewport: { width: 1000, height: 640 } });
   await settled(view);
   await view.page.getByRole('button', { name: 'Panel' }).click();
   await view.page.getByRole('tab', { name: 'Inspect' }).click();
@@ -172,7 +171,6 @@ test('the inspector’s sliders write into the XML and leave its lines', async (
   await view.page.getByRole('slider', { name: 'Diffuse red' }).fill('10');
   await settled(view);
   assert.notDeepEqual(await canvasPixels(view.page), before);
-  await view.page.waitForTimeout(300);
   const draft = (await draftOf(view, 'torch')).split('\n'), lines = source.split('\n');
   assert.equal(draft.length, lines.length);
   assert.equal(draft.filter((line, i) => line !== lines[i]).length, 1);
@@ -210,7 +208,7 @@ test('a folder with textures is stored and opened, and its link works for others
 });
 
 test('a broken scene that is dropped shows its diagnostics, and is mended in place', async () => {
-  const view = await openPage(browser, `${server.url}/`, { viewport: { width: 1200, height: 800 } });
+  const view = await openPage(browser, `${server.url}/`, { viewport: { width: 1000, height: 640 } });
   await view.page.waitForSelector('.card:not(.ghost)');
   const broken = '<world>\n  <group>\n    <models>\n      <model file="nothing.3d"/>\n      <model file="sphere_1_16_8.3d"/>\n    </models>\n  </group>\n</world>\n';
   const data = await view.page.evaluateHandle((text) => {

@@ -5,7 +5,7 @@ import { mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'nod
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
-import { axeFindings, canvasPixels, drop, launch, middleOf, onePixel, openPage, settled, startServer } from './fixture.mjs';
+import { axeFindings, canvasPixels, draftOf, drop, launch, middleOf, onePixel, openPage, settled, startServer, until } from './fixture.mjs';
 
 let server, browser, scratch;
 const green = [0, 255, 0], red = [255, 0, 0], blue = [0, 0, 255];
@@ -39,7 +39,7 @@ after(async () => {
   rmSync(scratch, { recursive: true, force: true });
 });
 
-const wide = { viewport: { width: 1200, height: 800 }, acceptDownloads: true };
+const wide = { viewport: { width: 1000, height: 640 }, acceptDownloads: true };
 const open = async (id, options = {}) => {
   const view = await openPage(browser, `${server.url}/#/scene/${id}`, { ...wide, ...options });
   await settled(view);
@@ -56,16 +56,12 @@ const inState = (view, state) => view.page.waitForSelector(`.stage-area.is-${sta
 /** Until the middle of the picture is mostly of that colour. */
 async function shows(view, colour, what) {
   const isIt = (at) => at.every((x, i) => (colour[i] > 0 ? x > 60 && x > 2 * Math.max(...at.filter((_, k) => colour[k] === 0)) : true));
-  for (let i = 0, at = []; !isIt(at = await middleOf(view)); ++i) {
-    assert.ok(i < 200, `${what}: ${at} is not ${colour}`);
-    await view.page.waitForTimeout(100);
-  }
+  await until(async () => isIt(await middleOf(view)), async () => `${what}: ${await middleOf(view)} is not ${colour}`);
 }
 async function saved(view, act) {
   const [download] = await Promise.all([view.page.waitForEvent('download'), act()]);
   return { name: download.suggestedFilename(), bytes: readFileSync(await download.path()) };
 }
-const draftText = (view, id) => view.page.evaluate((key) => JSON.parse(localStorage.getItem(key))?.text ?? null, `farol.draft.${id}`);
 
 test('a missing texture that is dropped on its finding is drawn, and is there after a reload', async () => {
   const view = await open('crate');
@@ -105,7 +101,7 @@ test('dropped anywhere a file goes where it is missed; one of another kind is na
   await drop(view.page, [{ name: 'brick.png', bytes: Buffer.from(png) }], '.drawer .findings li.error');
   await inState(view, 'drawn');
   await shows(view, red, 'a PNG for a BMP');
-  assert.match(await draftText(view, 'crate'), /<texture file="textures\/brick\.png"\/>/);
+  assert.match(await draftOf(view, 'crate'), /<texture file="textures\/brick\.png"\/>/);
   await view.close();
 });
 
@@ -120,7 +116,7 @@ test('the files tab lists what there is and what is missing, and replaces, renam
   await view.page.getByRole('textbox', { name: 'New name of textures/leaf.bmp' }).fill('skins/brick.bmp');
   await view.page.keyboard.press('Enter');
   await row(view, 'skins/brick.bmp').waitFor();
-  assert.match(await draftText(view, 'whole'), /<texture file="skins\/brick\.bmp"\/>/);
+  assert.match(await draftOf(view, 'whole'), /<texture file="skins\/brick\.bmp"\/>/);
   await settled(view);
   await shows(view, red, 'renamed');
   await inState(view, 'drawn');

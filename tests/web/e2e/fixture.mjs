@@ -7,6 +7,7 @@ import { createRequire } from 'node:module';
 import { after } from 'node:test';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
+import { chromiumPath } from '../chromium.mjs';
 
 export const root = join(dirname(fileURLToPath(import.meta.url)), '../../..');
 const require = createRequire(join(root, 'build/web/package.json'));
@@ -17,9 +18,9 @@ const axePath = require.resolve('axe-core/axe.min.js');
 
 export const binary = process.env.FAROL_BINARY ?? join(root, 'build/release/farol');
 
-/** What a failed test left open would keep its file from ending. */
+/** What a failed test left open would keep its file from ending. A script that measures is no test, and reports none. */
 const open = new Set();
-after(() => Promise.all([...open].map((close) => close())));
+if (process.argv[1]?.endsWith('.test.mjs')) after(() => Promise.all([...open].map((close) => close())));
 /** Adds what closes something, once however often it is called. */
 const closing = (close) => {
   let closed;
@@ -52,9 +53,19 @@ export async function startServer({ program = binary, scenes = join(root, 'scene
   return { url, stop };
 }
 
+/** Until it holds, or returns what is no longer null; looked at every few ms. */
+export async function until(holds, what, forMs = 60000) {
+  for (const end = Date.now() + forMs; ;) {
+    const value = await holds();
+    if (value) return value;
+    assert.ok(Date.now() < end, typeof what === 'function' ? await what() : what);
+    await new Promise((done) => setTimeout(done, 10));
+  }
+}
+
 export async function launch() {
   const browser = await chromium.launch({
-    executablePath: process.env.FAROL_CHROMIUM ?? '/usr/bin/chromium',
+    executablePath: chromiumPath,
     args: ['--no-sandbox', '--disable-gpu', '--force-color-profile=srgb'],
   });
   closing(() => browser.close());
@@ -90,16 +101,26 @@ const pageFrom = (context, folder) => context.route((url) => /^\/(embed|assets\/
   return route.fulfill({ path: file, headers: { 'Content-Type': type, 'Content-Security-Policy': policy } }).catch(() => undefined); // closed meanwhile
 });
 
-/** A page with what it asked for; an error in its script fails the test that closes it. */
-export async function openPage(browser, url, options = {}) {
-  const context = await browser.newContext({ viewport: { width: 900, height: 620 }, reducedMotion: 'reduce', ...options });
+/** A page with what it asked for; an error in its script fails the test that closes it. `remembered`: what its browser has kept of it. */
+export async function openPage(browser, url, { remembered = {}, ...options } = {}) {
+  const localStorage = Object.entries(remembered).map(([name, value]) => ({ name, value })), { origin } = new URL(url);
+  const context = await browser.newContext({
+    viewport: { width: 900, height: 620 }, reducedMotion: 'reduce', ...options,
+    ...(localStorage.length > 0 ? { storageState: { cookies: [], origins: [{ origin, localStorage }] } } : {}),
+  });
   if (process.env.FAROL_PAGE) await pageFrom(context, process.env.FAROL_PAGE);
   const page = await context.newPage();
-  const faults = [], pictures = [];
+  const faults = [], pictures = [], underWay = new Set();
   page.on('pageerror', (error) => faults.push(error.message));
   page.on('console', (message) => {
     if (message.type() === 'error' && /Content Security Policy|Uncaught/.test(message.text())) faults.push(message.text());
   });
+  const isCounted = (request) => request.url().startsWith('http') && !/\/thumbnail$/.test(new URL(request.url()).pathname);
+  page.on('request', (request) => {
+    if (request.isNavigationRequest() && request.frame() === page.mainFrame()) underWay.clear(); // nobody hears of what the last page asked for
+    if (isCounted(request)) underWay.add(request);
+  });
+  for (const event of ['requestfinished', 'requestfailed']) page.on(event, (request) => underWay.delete(request));
   page.on('request', (request) => {
     const parsed = new URL(request.url());
     if (!/\/image$|\/v1\/render$/.test(parsed.pathname)) return;
@@ -107,7 +128,7 @@ export async function openPage(browser, url, options = {}) {
   });
   await page.goto(url);
   return {
-    page, context, pictures, faults,
+    page, context, pictures, faults, underWay,
     moving: () => pictures.filter((one) => one.scale !== undefined),
     full: () => pictures.filter((one) => one.scale === undefined && one.layer === undefined),
     async close() {
@@ -117,20 +138,54 @@ export async function openPage(browser, url, options = {}) {
   };
 }
 
-/** Until the picture at rest is on show: the last one asked for, and nothing newer for a while. */
-export async function settled(view) {
-  await view.page.waitForSelector('.stage[aria-busy=false]', { timeout: 60000 });
+/**
+ * Until the picture at rest is on show, nothing is under way and nothing more comes of what was done: the page says when it
+ * rests, and what an event leads to without a request is done within a few frames (effects, layout, sizes).
+ */
+export async function settled({ page, underWay, full }) {
   const until = Date.now() + 60000;
-  for (let calm = 0, last = -1; calm < 3;) {
-    assert.ok(Date.now() < until, 'the picture never came to rest');
-    await view.page.waitForTimeout(120);
-    const seq = Number(await view.page.locator('.stage canvas').getAttribute('data-seq'));
-    const full = view.full().at(-1);
-    const still = full && seq === Number(full.seq) && seq === last && !view.pictures.some((one) => one.session === full.session && Number(one.seq) > seq);
-    calm = still ? calm + 1 : 0;
-    last = seq;
+  for (;;) {
+    const seq = await page.evaluate((deadline) => new Promise((done) => {
+      let calm = 0;
+      const look = () => {
+        const stage = document.querySelector('.stage[aria-busy=false][data-rest=true]');
+        calm = stage ? calm + 1 : 0;
+        if (calm > 4) return done(Number(stage.querySelector('canvas').dataset.seq));
+        if (Date.now() > deadline) return done(null);
+        return requestAnimationFrame(() => setTimeout(look, 0));
+      };
+      look();
+    }), until).catch((fault) => {
+      if (/context was destroyed|navigat/.test(fault.message)) return undefined; // the page is loaded anew
+      throw fault;
+    });
+    if (seq !== undefined && underWay.size === 0 && seq === Number(full().at(-1)?.seq)) return;
+    assert.ok(seq !== null && Date.now() < until, `the picture never came to rest: ${[...underWay].map((one) => one.url()).join(' ')}`);
+    if (underWay.size > 0) await page.waitForTimeout(10);
   }
 }
+
+/** What a browser remembers that has these edits of a scene. */
+export const draft = (id, text) => ({ [`farol.draft.${id}`]: JSON.stringify({ text, base: '' }) });
+
+/** The edits of a scene as the browser keeps them, of a new one by '*'. They are kept a moment after a change, and at once where the page may be left. */
+export const draftOf = ({ page }, id) => page.evaluate((key) => {
+  dispatchEvent(new Event('pagehide'));
+  return JSON.parse(localStorage.getItem(key))?.text ?? null;
+}, `farol.draft.${id}`);
+
+/** Until the browser has all that the page has given it to keep. */
+export const keptAll = ({ page }) => page.evaluate(() => new Promise((done, failed) => {
+  dispatchEvent(new Event('pagehide'));
+  const opening = indexedDB.open('farol');
+  opening.onerror = () => failed(opening.error);
+  opening.onsuccess = () => {
+    // Transactions on a store are done in their order.
+    const transaction = opening.result.transaction('kept', 'readwrite');
+    transaction.objectStore('kept').count();
+    transaction.oncomplete = () => (opening.result.close(), done());
+  };
+}));
 
 /** What the canvas shows, as a digest and a size; and the same of a picture at an address. */
 export const canvasPixels = (page) => page.evaluate(async () => {
@@ -212,7 +267,7 @@ export const webp = async (page, png, quality = 0.85) => Buffer.from(await page.
 
 /** Serious findings of axe-core; the page is opened with bypassCSP, for its policy keeps foreign scripts out. */
 export async function axeFindings(page) {
-  await page.addScriptTag({ path: axePath });
+  if (!(await page.evaluate(() => 'axe' in window))) await page.addScriptTag({ path: axePath });
   const { violations } = await page.evaluate(() => window.axe.run(document, { resultTypes: ['violations'] }));
   return violations.filter((one) => ['serious', 'critical'].includes(one.impact))
     .map((one) => `${one.id}: ${one.nodes.map((node) => node.target.join(' ')).slice(0, 4).join('; ')}`);

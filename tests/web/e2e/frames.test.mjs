@@ -1,7 +1,7 @@
 // What is shown when the server is slow, busy or gone.
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
-import { canvasPixels, launch, openPage, picturePixels, settled, startProxy, startServer } from './fixture.mjs';
+import { canvasPixels, launch, openPage, picturePixels, settled, startProxy, startServer, until } from './fixture.mjs';
 
 let server, browser;
 before(async () => {
@@ -34,7 +34,7 @@ test('with a slow server that answers out of order no stale frame is ever shown'
   }
   await view.page.mouse.up();
   await settled(view);
-  await view.page.waitForTimeout(900); // the frames that were held back have come by now
+  await until(() => view.underWay.size === 0, 'frames that were held back did not come');
   const seen = await view.page.evaluate(() => window.seen);
   assert.ok(seen.length >= 4, `${seen.length} frames shown`);
   assert.deepEqual(seen, [...new Set(seen)].sort((a, b) => a - b), 'the numbers of the frames grow');

@@ -1,7 +1,7 @@
 // Handles over the image: a drag, keys and typed numbers change the XML's own numbers, and the image with them.
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
-import { axeFindings, canvasPixels, close, launch, openPage, settled, startServer } from './fixture.mjs';
+import { axeFindings, canvasPixels, close, draftOf as draftById, launch, openPage, settled, startServer } from './fixture.mjs';
 
 let server, browser;
 before(async () => {
@@ -12,27 +12,28 @@ after(async () => {
   await server?.stop();
 });
 
-const wide = { viewport: { width: 1280, height: 800 } };
+const wide = { viewport: { width: 1000, height: 640 } };
 const camera = '<camera><position x="0" y="0" z="10"/><lookAt x="0" y="0" z="0"/><up x="0" y="1" z="0"/><projection fov="60" near="1" far="100"/></camera>';
-/** A scene of one's own with that text, and the tree beside it. */
+/** A stored scene with that text, and the tree beside it. */
 const openDraft = async (text, options = {}) => {
-  const view = await openPage(browser, `${server.url}/#/grade`, { ...wide, ...options });
-  await view.page.evaluate((draft) => localStorage.setItem('farol.draft.*', JSON.stringify({ text: draft, base: '' })), text);
-  await view.page.goto(`${server.url}/#/new`);
-  await settled(view);
-  await view.page.getByRole('tab', { name: 'Tree' }).click();
+  const stored = await fetch(`${server.url}/v1/scenes?public=0`, { method: 'POST', headers: { 'Content-Type': 'application/xml' }, body: text });
+  assert.ok(stored.ok, await stored.clone().text());
+  const { id } = await stored.json(), view = await openPage(browser, `${server.url}/#/scene/${id}`, { ...wide, ...options, remembered: { 'farol.panel': 'tree' } });
+  await view.page.locator('.toolbar').waitFor();
+  if (!(await view.page.locator('.panel').isVisible())) { // a phone begins without a panel
+    await view.page.getByRole('button', { name: 'Panel', exact: true }).click();
+    await view.page.getByRole('tab', { name: 'Tree' }).click();
+  }
   await view.page.getByRole('tree').waitFor();
   await settled(view);
-  return view;
+  return Object.assign(view, { id, text });
 };
 const select = async (view, name) => {
   await view.page.getByRole('treeitem', { name }).first().click();
   await view.page.waitForFunction(() => document.querySelector('.outline')?.dataset.of);
 };
-const draftOf = async (view) => {
-  await view.page.waitForTimeout(300);
-  return view.page.evaluate(() => JSON.parse(localStorage.getItem('farol.draft.*'))?.text ?? null);
-};
+/** The edited text; without edits, as it was stored. */
+const draftOf = async (view) => (await draftById(view, view.id)) ?? view.text;
 const tool = (view, name) => view.page.getByRole('toolbar', { name: 'Handles of what is selected' }).getByRole('button', { name, exact: true }).click();
 /** The middle of a part of a handle, in pixels of the window. */
 const middleOfHandle = async (view, id, part = '.fill') => {
@@ -96,7 +97,8 @@ test('the plane and the middle move two numbers and all; snapping and Shift keep
   close(u, 0, 0.06, 'back to x');
   close(v, 0, 0.06, 'back to y');
   await view.page.getByRole('button', { name: /^Snap to steps of 0.5/ }).click();
-  await dragBy(view, await middleOfHandle(view, 'move-X'), 70, 0);
+  const perPixel = high / (await view.page.locator('.stage').boundingBox()).height;
+  await dragBy(view, await middleOfHandle(view, 'move-X'), Math.round(1.1 / perPixel), 0);
   assert.match(await draftOf(view), /<translate x="1(\.0+)?" /);
   await dragBy(view, await middleOfHandle(view, 'move-X'), 7, 0, 'Shift'); // Shift: without steps
   assert.match(await draftOf(view), /<translate x="1\.\d+" /);
@@ -164,6 +166,23 @@ test('by keys alone: select in the tree, move by arrows, type numbers, undo', as
   assert.equal(await x.getAttribute('aria-valuenow'), '1');
   await settled(view);
   assert.match(await draftOf(view), /<translate x="1(\.0)?" y="0" z="0"\/>/);
+  // The tools are one stop of Tab; arrows, Home and End go from one to the next.
+  const tools = view.page.getByRole('toolbar', { name: 'Handles of what is selected' }).getByRole('button');
+  const focused = () => tools.evaluateAll((all) => all.findIndex((one) => one === document.activeElement));
+  assert.deepEqual(await tools.evaluateAll((all) => all.map((one) => one.tabIndex)), [-1, 0, -1, -1, -1, -1]);
+  await reached(tools.nth(1), 'Tab');
+  for (const [key, at] of [['ArrowDown', 2], ['ArrowRight', 3], ['ArrowUp', 2], ['End', 5], ['ArrowDown', 0], ['ArrowLeft', 5], ['Home', 0], ['ArrowDown', 1], ['ArrowDown', 2]]) {
+    await view.page.keyboard.press(key);
+    assert.equal(await focused(), at, key);
+  }
+  await view.page.keyboard.press('Enter');
+  assert.equal(await tools.nth(2).getAttribute('aria-pressed'), 'true');
+  await view.page.keyboard.press('Tab');
+  assert.equal(await focused(), -1, 'Tab leaves the tools');
+  await view.page.keyboard.press('Shift+Tab');
+  assert.equal(await focused(), 2, 'and comes back to where it was');
+  await view.page.keyboard.press('ArrowUp');
+  await view.page.keyboard.press('Enter');
   const height = view.page.getByRole('spinbutton', { name: 'Position Y' });
   await reached(height, 'Tab');
   await view.page.keyboard.press('Control+A');
@@ -295,7 +314,7 @@ test('a finger drags a handle on a phone, and the scene does not orbit', async (
 });
 
 test('no serious finding of axe with handles of each kind, light and dark, wide and phone', async () => {
-  for (const look of [{ colorScheme: 'light', ...wide }, { colorScheme: 'dark', viewport: { width: 360, height: 740 } }]) {
+  for (const look of [{ colorScheme: 'light', viewport: { width: 1280, height: 800 } }, { colorScheme: 'dark', viewport: { width: 360, height: 740 } }]) {
     const view = await openDraft(redBall('\n    <transform><translate x="0" y="0" z="0"/></transform>'), { ...look, bypassCSP: true });
     await select(view, 'Ball');
     for (const name of ['Move', 'Turn', 'Scale']) {

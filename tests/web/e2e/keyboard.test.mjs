@@ -54,8 +54,8 @@ async function atKeys(options = {}) {
   const focused = async () => {
     for (let i = 0; ; ++i) {
       const at = await inTree();
-      if ((at.role !== 'none' && at.role !== 'RootWebArea') || i > 20) return at;
-      await page.waitForTimeout(100); // the tree follows the page
+      if ((at.role !== 'none' && at.role !== 'RootWebArea') || i > 100) return at;
+      await page.waitForTimeout(20); // the tree follows the page
     }
   };
   const inTree = async () => {
@@ -83,10 +83,10 @@ async function atKeys(options = {}) {
   };
   const isOn = async (role, name, states = {}) => {
     let at;
-    for (let i = 0; i < 60; ++i) {
+    for (const end = Date.now() + 60000; Date.now() < end;) {
       at = await focused();
       if (at.role === role && (name instanceof RegExp ? name.test(at.name) : at.name === name) && Object.entries(states).every(([key, value]) => String(at[key]) === String(value))) return at;
-      await page.waitForTimeout(100);
+      await page.waitForTimeout(20);
     }
     return assert.fail(`${JSON.stringify(at)} is not ${role} ${name} ${JSON.stringify(states)}`);
   };

@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import http from 'node:http';
 import { after, before, test } from 'node:test';
-import { axeFindings, canvasPixels, launch, openPage, settled, startServer } from './fixture.mjs';
+import { axeFindings, canvasPixels, launch, openPage, settled, startServer, until } from './fixture.mjs';
 
 let server, browser, other, framed;
 before(async () => {
@@ -31,12 +31,7 @@ const openDialog = async (view) => {
   await view.page.locator('dialog.share').waitFor();
 };
 /** Until the frame shows the browser's error instead of the page: nothing in it can be asked. */
-const refused = async ({ page }) => {
-  for (let i = 0; !page.frames()[1]?.url().startsWith('chrome-error:'); ++i) {
-    assert.ok(i < 200, `the frame shows ${page.frames()[1]?.url()}`);
-    await page.waitForTimeout(50);
-  }
-};
+const refused = ({ page }) => until(() => page.frames()[1]?.url().startsWith('chrome-error:'), () => `the frame shows ${page.frames()[1]?.url()}`);
 const line = (view, name) => view.page.locator('.share').getByRole('textbox', { name, exact: true }).inputValue();
 
 test('the frame shows the view on a page of the origin that --cors names, can be orbited, and no other page is framed', async () => {
@@ -65,10 +60,7 @@ test('the frame shows the view on a page of the origin that --cors names, can be
   await page.page.mouse.down();
   for (let i = 1; i <= 8; ++i) await page.page.mouse.move(box.x + 300 + 10 * i, box.y + 200);
   await page.page.mouse.up();
-  for (let i = 0; page.full().length === before; ++i) {
-    assert.ok(i < 200, 'a drag in the frame asks for no image');
-    await page.page.waitForTimeout(50);
-  }
+  await until(() => page.full().length > before, 'a drag in the frame asks for no image');
   assert.notEqual(page.full().at(-1).azimuth, /az=([^&]+)/.exec(framed)[1]);
   // The whole page refuses to be framed.
   framed = framed.replace('/embed#', '/#');

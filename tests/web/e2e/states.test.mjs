@@ -14,6 +14,7 @@ const scenes = {
   warned: sceneOf([model('box_2_2.3d')], '<lights><light type="spot" dirX="1" dirY="2" dirZ="3"/></lights>\n'),
   crate: sceneOf([model('box_2_2.3d', '<texture file="wood.png"/>')]),
   failed: 'sphere { <0, 0, 0>, 1 }\n',
+  titled: sceneOf([model('nothing.3d')], '<title>Half a house</title>\n'),
   many: sceneOf(Array.from({ length: 16 }, (_, i) => model(`missing-mesh-with-a-rather-long-name-number-${i}.obj`))),
 };
 before(async () => {
@@ -27,7 +28,7 @@ after(async () => {
   rmSync(scratch, { recursive: true, force: true });
 });
 
-const wide = { viewport: { width: 1200, height: 800 } };
+const wide = { viewport: { width: 1000, height: 640 } };
 const open = (hash, options = wide) => openPage(browser, `${server.url}/${hash}`, options);
 const inState = (view, state) => view.page.waitForSelector(`.stage-area.is-${state}`, { timeout: 60000 });
 const note = (view, state) => view.page.locator(`.state-note.${state}, .state-card.${state}`);
@@ -61,6 +62,26 @@ test('drawn, with warnings, incomplete and failed look different and say why', a
     if (state === 'failed') assert.match(await note(view, state).innerText(), /The document has no element/);
     await view.close();
   }
+});
+
+test('a scene with errors has its title, and the name of its file where none can be read', async () => {
+  const view = await open('#/scene/titled');
+  await inState(view, 'incomplete');
+  await view.page.waitForFunction(() => document.title === 'Half a house · Farol');
+  assert.equal(await view.page.locator('h1').innerText(), 'Half a house');
+  await view.page.evaluate(() => (location.hash = '#/scene/failed'));
+  await inState(view, 'failed');
+  assert.equal(await view.page.locator('h1').innerText(), 'failed');
+  // A stored scene that nobody gave a title; its id is in the address alone.
+  const { id } = await (await fetch(`${server.url}/v1/scenes?public=1`, { method: 'POST', body: scenes.good, headers: { 'Content-Type': 'application/xml' } })).json();
+  await view.page.evaluate((hash) => (location.hash = hash), `#/scene/${encodeURIComponent(id)}`);
+  await settled(view);
+  assert.equal(await view.page.locator('h1').innerText(), 'Untitled scene');
+  await view.page.evaluate(() => (location.hash = '#/'));
+  await view.page.getByRole('link', { name: /^Untitled scene/ }).waitFor();
+  assert.ok(!(await view.page.locator('main').innerText()).includes(id.slice(1)), 'the id is not shown');
+  assert.equal((await fetch(`${server.url}/v1/scenes/${encodeURIComponent(id)}`, { method: 'DELETE' })).status, 204);
+  await view.close();
 });
 
 test('while a scene is drawn for the first time the page says so', async () => {

@@ -74,7 +74,7 @@ test('keys are where something is where it began, and have names', async () => {
 });
 
 test('an edit of a time moves the keys', async () => {
-  const view = await open(ring(4), { viewport: { width: 1200, height: 800 } });
+  const view = await open(ring(4), { viewport: { width: 1000, height: 640 } });
   await view.page.getByRole('button', { name: 'Next key' }).waitFor();
   await view.page.getByRole('button', { name: 'Panel', exact: true }).click();
   await view.page.getByRole('tab', { name: 'XML' }).click();
@@ -154,10 +154,17 @@ test('an export shows how far it is, and is stopped by Cancel; one that is too l
   await view.page.waitForFunction(() => Number(document.querySelector('progress')?.value) >= 3);
   assert.match(await dialog.innerText(), /Frame \d+ of 500/);
   await dialog.getByRole('button', { name: 'Cancel' }).click();
-  const frames = () => view.pictures.filter((one) => one.session === undefined && one.width === '320').length;
-  const begun = frames();
-  await view.page.waitForTimeout(700);
-  assert.equal(frames(), begun, 'no frame is asked for after it was stopped');
+  await dialog.getByRole('button', { name: 'Export' }).waitFor();
+  const frames = () => view.pictures.filter((one) => one.session === undefined && one.width === '320'), begun = frames().length;
+  // As long as four more frames would take, one after the other.
+  await view.page.evaluate(async (address) => {
+    for (let i = 0; i < 4; ++i) {
+      const url = new URL(address);
+      url.searchParams.set('time', String(40 + i));
+      await (await fetch(url)).blob();
+    }
+  }, frames()[0].url);
+  assert.equal(frames().length, begun + 4, 'no frame is asked for after it was stopped');
   assert.ok(await dialog.getByRole('button', { name: 'Export' }).isEnabled());
   await view.close();
 });

@@ -1,7 +1,7 @@
 // The tree of the scene: selection in tree, image and text, the outline, what is hidden or locked; by mouse and keys.
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
-import { axeFindings, canvasPixels, launch, openPage, settled, startServer } from './fixture.mjs';
+import { axeFindings, canvasPixels, draft, draftOf, keptAll, launch, openPage, settled, startServer } from './fixture.mjs';
 
 let server, browser;
 before(async () => {
@@ -12,7 +12,7 @@ after(async () => {
   await server?.stop();
 });
 
-const wide = { viewport: { width: 1280, height: 800 } };
+const wide = { viewport: { width: 1000, height: 640 } };
 const open = async (scene, options = {}) => {
   const view = await openPage(browser, `${server.url}/#/scene/${scene}`, { ...wide, ...options });
   await settled(view);
@@ -24,9 +24,7 @@ const open = async (scene, options = {}) => {
 };
 /** A scene of one's own with that text. */
 const openDraft = async (text) => {
-  const view = await openPage(browser, `${server.url}/#/grade`, wide);
-  await view.page.evaluate((draft) => localStorage.setItem('farol.draft.*', JSON.stringify({ text: draft, base: '' })), text);
-  await view.page.goto(`${server.url}/#/new`);
+  const view = await openPage(browser, `${server.url}/#/new`, { ...wide, remembered: draft('*', text) });
   await settled(view);
   return view;
 };
@@ -34,6 +32,7 @@ const row = (view, name) => view.page.getByRole('treeitem', { name });
 const selectedName = (view) => view.page.getByRole('treeitem', { selected: true }).getAttribute('aria-label');
 /** Waits for the outline of what is selected; its bright pixels as shares of the stage. */
 const outline = async (view) => {
+  await settled(view); // an outline of what was selected before is cleared
   await view.page.waitForFunction(() => document.querySelector('.outline')?.dataset.of);
   return view.page.evaluate(() => {
     const canvas = document.querySelector('.outline'), { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
@@ -46,7 +45,6 @@ const outline = async (view) => {
     return { left, right, top, bottom, count };
   });
 };
-const draftOf = (view, id) => view.page.evaluate((scene) => JSON.parse(localStorage.getItem(`farol.draft.${scene}`))?.text ?? null, id);
 const clickAt = async (view, x, y) => {
   const area = await view.page.locator('.stage').boundingBox();
   await view.page.mouse.click(area.x + x * area.width, area.y + y * area.height);
@@ -59,8 +57,6 @@ test('what is selected in the tree has an outline in the image and its place in 
   assert.ok(torch.left > 0.05 && torch.right < 0.4 && torch.top > 0.5 && torch.bottom < 0.9 && torch.count > 300, JSON.stringify(torch));
   // The floor reaches to the lower edge and both sides.
   await row(view, 'Floor').click();
-  await view.page.waitForFunction(() => document.querySelector('.outline').dataset.of !== '');
-  await view.page.waitForTimeout(200);
   assert.ok((await outline(view)).count > torch.count);
   await row(view, 'Torch').click();
   await view.page.getByRole('tab', { name: 'XML' }).click();
@@ -110,7 +106,7 @@ test('the cursor in the text selects, and edits before it leave the selection wh
   await view.page.locator('.cm-scroller').hover();
   for (let i = 0; i < 40 && await planks.count() === 0; ++i) {
     await view.page.mouse.wheel(0, 100);
-    await view.page.waitForTimeout(100);
+    await view.page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
   }
   await planks.click(); // in the floor's model
   await view.page.getByRole('tab', { name: 'Tree' }).click();
@@ -138,7 +134,7 @@ test('a hidden part is not drawn, the page says so, the XML keeps it, and undo a
   assert.notDeepEqual(hidden, before);
   assert.match(await view.page.locator('.hidden-note').innerText(), /1 part is hidden on this page only/);
   assert.equal(await draftOf(view, 'torch'), null); // the document is as it was
-  await view.page.waitForTimeout(400);
+  await keptAll(view);
   await view.page.reload();
   await settled(view);
   assert.deepEqual(await canvasPixels(view.page), hidden);
@@ -167,7 +163,6 @@ test('hiding moves no camera of a scene that is framed by its models, and a lock
   await view.page.keyboard.press('h');
   await settled(view);
   await row(view, 'Right').click();
-  await view.page.waitForTimeout(300);
   const still = await outline(view);
   for (const side of ['left', 'right', 'top', 'bottom']) assert.ok(Math.abs(still[side] - right[side]) < 0.01, `${side}: ${JSON.stringify([right, still])}`);
   await view.page.keyboard.press('l');
@@ -187,7 +182,7 @@ test('the tree works by the keyboard alone, as an ARIA tree', async () => {
   assert.ok(await tree.evaluate((one) => one === document.activeElement));
   const press = async (key) => {
     await view.page.keyboard.press(key);
-    await view.page.waitForTimeout(60);
+    await settled(view); // hiding reads the text first
     return selectedName(view);
   };
   assert.equal(await press('Home'), 'Scene');
@@ -232,7 +227,7 @@ test('a tree of thousands of entries is as quick, and finds by name', async () =
 });
 
 test('no serious finding of axe in the tree, selected, hidden and locked', async () => {
-  for (const look of [{ colorScheme: 'light', ...wide }, { colorScheme: 'dark', viewport: { width: 360, height: 740 } }]) {
+  for (const look of [{ colorScheme: 'light', viewport: { width: 1280, height: 800 } }, { colorScheme: 'dark', viewport: { width: 360, height: 740 } }]) {
     const view = await open('torch', { ...look, bypassCSP: true });
     await row(view, 'Torch').click();
     await view.page.getByRole('tree').focus();

@@ -5,7 +5,7 @@ import { mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'nod
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
-import { canvasPixels, launch, onePixel, openPage, settled, startServer } from './fixture.mjs';
+import { canvasPixels, draftOf, launch, onePixel, openPage, settled, startServer, until } from './fixture.mjs';
 
 let server, browser, scratch;
 // Tabs, single quotes, ends of lines as Windows writes them.
@@ -48,7 +48,7 @@ after(async () => {
 });
 
 const open = async () => {
-  const view = await openPage(browser, `${server.url}/#/scene/tidy`, { viewport: { width: 1280, height: 800 }, acceptDownloads: true });
+  const view = await openPage(browser, `${server.url}/#/scene/tidy`, { viewport: { width: 1000, height: 640 }, acceptDownloads: true });
   await settled(view);
   await view.page.getByRole('button', { name: 'Panel', exact: true }).click();
   await view.page.getByRole('tab', { name: 'Tree' }).click();
@@ -64,10 +64,7 @@ const add = async (view, what) => {
 };
 /** Until a newer image than those asked for before rests. */
 const drawn = async (view, asked) => {
-  for (let i = 0; view.full().length === asked; ++i) {
-    assert.ok(i < 600, 'no image was asked for');
-    await view.page.waitForTimeout(50);
-  }
+  await until(() => view.full().length > asked, 'no image was asked for');
   await settled(view);
 };
 const act = async (view, does) => {
@@ -77,10 +74,7 @@ const act = async (view, does) => {
 };
 const undo = (view) => act(view, () => view.page.getByRole('button', { name: 'Undo' }).click());
 /** The document as the draft has it; as it is stored where there is none. */
-const written = async (view) => {
-  await view.page.evaluate(() => dispatchEvent(new Event('pagehide'))); // the draft is kept at once
-  return view.page.evaluate(() => JSON.parse(localStorage.getItem('farol.draft.tidy'))?.text ?? null);
-};
+const written = (view) => draftOf(view, 'tidy');
 /** How much of the left and of the right half is of a kind: red, lit otherwise, or nothing. */
 const halves = (view) => view.page.evaluate(() => {
   const canvas = document.querySelector('.stage canvas'), { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);

@@ -1,7 +1,7 @@
 // The viewer: that the camera moves as the hand says, by requests and by pixels.
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
-import { canvasPixels, close, launch, openPage, picturePixels, settled, startServer } from './fixture.mjs';
+import { canvasPixels, close, launch, openPage, picturePixels, settled, startServer, until } from './fixture.mjs';
 
 let server, browser;
 before(async () => {
@@ -145,7 +145,7 @@ test('a deep link restores the view, and the view makes the link', async () => {
   await settled(view);
   await view.page.getByRole('button', { name: 'Panel', exact: true }).click();
   await settled(view);
-  await view.page.waitForTimeout(300);
+  await view.page.waitForURL(/axes=1/); // a moment after the last change
   const link = view.page.url();
   const again = await openPage(browser, link);
   await settled(again);
@@ -162,7 +162,7 @@ test('a stage of another size gets a picture of its size', async () => {
   for (const change of [() => view.page.getByRole('button', { name: 'Panel' }).click(), () => view.page.setViewportSize({ width: 1000, height: 640 })]) {
     const before = view.full().length;
     await change();
-    for (let i = 0; view.full().length === before && i < 100; ++i) await view.page.waitForTimeout(100);
+    await until(() => view.full().length > before, 'no image of the new size was asked for');
     await settled(view);
     const area = await box(view), shown = await canvasPixels(view.page);
     assert.deepEqual([shown.width, shown.height], [Math.round(area.width), Math.round(area.height)]);

@@ -65,7 +65,7 @@ test('on a phone every target has 44 pixels, and panels are sheets over the imag
     if (tab) {
       if (!(await view.page.locator('.panel').isVisible())) await view.page.getByRole('button', { name: 'Panel', exact: true }).tap();
       await view.page.getByRole('tab', { name: tab }).tap();
-      await view.page.waitForTimeout(300);
+      await settled(view);
       const sheet = await view.page.locator('.panel').boundingBox();
       assert.ok(Math.abs(sheet.y + sheet.height - 740) < 2 && sheet.width === 360, JSON.stringify(sheet));
     }

@@ -30,11 +30,11 @@ uniform float samplesAcross;  // of a pixel of the image, whose level of detail 
 #endif
 #ifdef SKYBOX
 uniform samplerCube sky;
-uniform mat3 worldFromView;
-uniform vec2 tangents;  // of half the field of view, across and up
+flat in mat3 skyFromView;
+flat in vec2 skyTangents;
 
 void main() {
-    vec3 ray = worldFromView * vec3(windowPosition * tangents, -1.0);
+    vec3 ray = skyFromView * vec3(windowPosition * skyTangents, -1.0);
     // Cube maps are left-handed.
     result = vec4(texture(sky, vec3(ray.xy, -ray.z), BIAS).rgb, 1.0);
 }

@@ -5,8 +5,10 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <thread>
 
 #include "core/stopwatch.h"
+#include "core/workers.h"
 #include "generator/registry.h"
 #include "image/format.h"
 #include "image/image_file.h"
@@ -138,11 +140,13 @@ Diagnostics checkSurroundings(const scene::Scene& scene, const PictureOptions& o
 struct Renderer::State {
     explicit State(GlSource from) : source(from) {
         gl::setMesaVariables(from);
+        decoders.emplace(std::max(1U, std::thread::hardware_concurrency()));
         library = std::async(std::launch::async, gl::loadLibraries, from);
     }
 
     const GlSource source;
-    std::future<void> library;  ///< of the GL: it is loaded beside other work
+    std::optional<Workers> decoders;  ///< of the first frame's images
+    std::future<void> library;        ///< of the GL: it is loaded beside other work
     std::optional<gl::Painter> made;
     /// Waits for the GL's library the first time.
     gl::Painter& painter();
@@ -214,10 +218,11 @@ Picture Renderer::State::draw(const Prepared& prepared, const Placed& placed, co
     skipping.notFinite = !job.markNotFinite;
     const auto openFile = [&](const TextureRef& ref) { return openTexture(ref, *prepared.assets); };
     std::optional<TexturePrefetch> prefetch;
-    if (!made) prefetch.emplace(placed.scene.textures, openFile);
+    if (!made && decoders) prefetch.emplace(placed.scene.textures, openFile, *decoders);
     FramePlan frame = plan(prepared.scene, placed, options, *prepared.assets, meshes,
                            painter().facts(), skipping);
     budget.spend(frame);
+    if (prefetch) prefetch->keepOnly(frame.textures);
     picture.camera = frame.camera;
     takeFindings(picture.diagnostics, frame.findings, job);
     picture.times.geometryMs = watch.lapMs();
@@ -229,6 +234,8 @@ Picture Renderer::State::draw(const Prepared& prepared, const Placed& placed, co
         [&](const TextureRef& ref) { return prefetch ? prefetch->open(ref) : openFile(ref); }, out,
         timings, warnings);
     takeFindings(picture.diagnostics, warnings, job);
+    prefetch.reset();
+    decoders.reset();  // a sandbox may be closed after the first frame
     if (isBlank(frame, out))
         takeFindings(
             picture.diagnostics,

@@ -1,18 +1,17 @@
 #include "render/texture_prefetch.h"
 
-#include <algorithm>
-#include <thread>
+#include <set>
 
 #include "core/error.h"
 
 namespace farol::render {
 
-TexturePrefetch::TexturePrefetch(const std::vector<TextureRef>& refs, OpenTexture open)
+TexturePrefetch::TexturePrefetch(const std::vector<TextureRef>& refs, OpenTexture open,
+                                 Workers& workers)
     : open_(std::move(open)) {
-    const std::size_t most = std::max(1U, std::thread::hardware_concurrency());
+    if (workers.size() == 0) return;
     std::int64_t pixels = 0;
     for (const TextureRef& ref : refs) {
-        if (started_.size() >= most) return;
         if (ref.chess || started_.count(ref.key) != 0) continue;
         UndecodedTexture file;
         try {
@@ -22,20 +21,35 @@ TexturePrefetch::TexturePrefetch(const std::vector<TextureRef>& refs, OpenTextur
         }
         pixels += std::int64_t{file.width} * file.height;
         if (pixels > kMaxPixelsAtOnce) return;
-        std::future<Decoded> image = std::async(std::launch::async, [decode = file.decode] {
+        const auto isWanted = std::make_shared<std::atomic<bool>>(true);
+        std::future<Decoded> image = workers.add([decode = file.decode, isWanted] {
             Decoded decoded;
-            decoded.image = decode(decoded.damage);
+            if (*isWanted) decoded.image = decode(decoded.damage);
             return decoded;
         });
-        started_.emplace(ref.key,
-                         Started{file.width, file.height, file.mayHaveAlpha,
-                                 std::make_shared<std::future<Decoded>>(std::move(image))});
+        images_.push_back(std::make_shared<std::future<Decoded>>(std::move(image)));
+        started_.emplace(
+            ref.key, Started{file.width, file.height, file.mayHaveAlpha, images_.back(), isWanted});
     }
+}
+
+TexturePrefetch::~TexturePrefetch() {
+    keepOnly({});
+    // Decoders read what `open` knows of.
+    for (const auto& image : images_)
+        if (image->valid()) image->wait();
+}
+
+void TexturePrefetch::keepOnly(const std::vector<TextureRef>& refs) {
+    std::set<std::string> kept;
+    for (const TextureRef& ref : refs) kept.insert(ref.key);
+    for (const auto& [key, started] : started_)
+        if (kept.count(key) == 0) *started.isWanted = false;
 }
 
 UndecodedTexture TexturePrefetch::open(const TextureRef& ref) {
     const auto at = started_.find(ref.key);
-    if (at == started_.end()) return open_(ref);
+    if (at == started_.end() || !*at->second.isWanted) return open_(ref);
     const Started started = std::move(at->second);
     started_.erase(at);
     return {started.width, started.height, started.mayHaveAlpha,

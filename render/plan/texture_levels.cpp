@@ -5,6 +5,7 @@
 #include <future>
 #include <thread>
 
+#include "core/workers.h"
 #include "render/plan/messages.h"
 #include "render/plan/skybox.h"
 
@@ -12,6 +13,7 @@ namespace farol::render {
 namespace {
 
 constexpr std::size_t kMaxThreads = 8;
+constexpr std::size_t kQueued = 4;  // images a thread that may be decoded and not taken
 
 void flipVertically(image::Image& image) {
     const auto stride = static_cast<std::ptrdiff_t>(image.width) * 4;
@@ -127,9 +129,11 @@ void loadTextures(const std::vector<const TextureRef*>& refs, const OpenTexture&
         std::int64_t pixels;
         std::future<TextureLevels> levels;
     };
-    std::deque<Loading> loading;  // their destructors wait
+    std::deque<Loading> loading;
     std::int64_t pixels = 0;
     bool idle = callbacks.whileDecoding != nullptr;
+    // One alone needs no thread, where there is no other work.
+    Workers workers(refs.size() > 1 || idle ? std::min(threads, refs.size()) : 0);
     const auto takeFirst = [&] {
         if (idle) callbacks.whileDecoding();
         idle = false;
@@ -147,13 +151,12 @@ void loadTextures(const std::vector<const TextureRef*>& refs, const OpenTexture&
             throw;
         }
         const std::int64_t more = std::int64_t{next.width} * next.height;
-        while (!loading.empty() && (loading.size() >= threads || pixels + more > kMaxPixelsAtOnce))
+        while (!loading.empty() &&
+               (loading.size() >= threads * kQueued || pixels + more > kMaxPixelsAtOnce))
             takeFirst();
         pixels += more;
-        const auto load = [ref, next, &gl] { return levelsOf(*ref, next, gl); };
-        // One alone needs no thread, where there is no other work.
-        const auto how = refs.size() > 1 || idle ? std::launch::async : std::launch::deferred;
-        loading.push_back({ref, more, std::async(how, load)});
+        loading.push_back(
+            {ref, more, workers.add([ref, next, &gl] { return levelsOf(*ref, next, gl); })});
         if (callbacks.onReserved) callbacks.onReserved(*ref, next);
     }
     while (!loading.empty()) takeFirst();

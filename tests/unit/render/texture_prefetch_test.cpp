@@ -5,6 +5,7 @@
 #include <atomic>
 #include <catch2/catch.hpp>
 #include <cstdlib>
+#include <future>
 #include <string>
 
 #include "render/renderer.h"
@@ -45,9 +46,11 @@ struct Files {
 }  // namespace
 
 TEST_CASE("an image is decoded before its plan, once") {
+    Workers workers(2);
     Files files;
     const std::vector<TextureRef> refs{refOf("a"), refOf("a")};
-    TexturePrefetch prefetch(refs, [&](const TextureRef& ref) { return files.open(ref); });
+    TexturePrefetch prefetch(
+        refs, [&](const TextureRef& ref) { return files.open(ref); }, workers);
     const UndecodedTexture texture = prefetch.open(refs[0]);
     CHECK(texture.width == 1);
     std::string damage;
@@ -61,9 +64,11 @@ TEST_CASE("an image is decoded before its plan, once") {
 }
 
 TEST_CASE("faults of images that are decoded early appear where the images are used") {
+    Workers workers(2);
     Files files;
     const std::vector<TextureRef> refs{refOf("absent"), refOf("broken")};
-    TexturePrefetch prefetch(refs, [&](const TextureRef& ref) { return files.open(ref); });
+    TexturePrefetch prefetch(
+        refs, [&](const TextureRef& ref) { return files.open(ref); }, workers);
     CHECK_THROWS_AS(prefetch.open(refs[0]), Error);
     const UndecodedTexture broken = prefetch.open(refs[1]);
     std::string damage;
@@ -72,17 +77,58 @@ TEST_CASE("faults of images that are decoded early appear where the images are u
 }
 
 TEST_CASE("images over the bound of pixels at once, and chess boards, are not decoded early") {
+    Workers workers(2);
     Files files;
     files.width = files.height = 4097;
     std::vector<TextureRef> refs{refOf("wide"), refOf("chess")};
     refs[1].chess.emplace();
     {
         const std::vector<TextureRef> chess{refs[1]};
-        TexturePrefetch none(chess, [&](const TextureRef& ref) { return files.open(ref); });
+        TexturePrefetch none(
+            chess, [&](const TextureRef& ref) { return files.open(ref); }, workers);
         CHECK(files.opened == 0);
     }
-    TexturePrefetch prefetch(refs, [&](const TextureRef& ref) { return files.open(ref); });
+    TexturePrefetch prefetch(
+        refs, [&](const TextureRef& ref) { return files.open(ref); }, workers);
     CHECK(files.decoded == 0);
+}
+
+TEST_CASE("more images than threads are decoded early, but none that the plan leaves out") {
+    Workers workers(1);
+    std::promise<void> planned;
+    const std::shared_future<void> plan = planned.get_future().share();
+    std::atomic<int> decoded = 0;
+    const std::vector<TextureRef> refs{refOf("a"), refOf("b"), refOf("c"), refOf("d")};
+    TexturePrefetch prefetch(
+        refs,
+        [&](const TextureRef&) {
+            return UndecodedTexture{1, 1, false, [&decoded, plan](std::string&) {
+                                        plan.wait();
+                                        ++decoded;
+                                        return Image{1, 1, {7, 8, 9, 255}};
+                                    }};
+        },
+        workers);
+    prefetch.keepOnly({refs[0], refs[2]});
+    planned.set_value();
+    workers.add([] {}).wait();  // behind all images
+    CHECK(decoded == 2);
+    std::string damage;
+    CHECK(prefetch.open(refs[2]).decode(damage).width == 1);
+    CHECK(decoded == 2);
+    CHECK(prefetch.open(refs[3]).decode(damage).width == 1);
+    CHECK(decoded == 3);
+}
+
+TEST_CASE("without threads nothing is decoded early") {
+    Workers workers(0);
+    Files files;
+    const std::vector<TextureRef> refs{refOf("a")};
+    TexturePrefetch prefetch(
+        refs, [&](const TextureRef& ref) { return files.open(ref); }, workers);
+    CHECK(files.opened == 0);
+    std::string damage;
+    CHECK(prefetch.open(refs[0]).decode(damage).width == 1);
 }
 
 TEST_CASE("the environment stays in its place while a renderer lives: decoders read it beside") {

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cstring>
 
 #include "image/image.h"
 
@@ -36,29 +37,53 @@ std::vector<Span> spans(int source, int target) {
     return all;
 }
 
-/// Averages four texels of equal weight; equals the general case without its divisions.
-/// `scale` converts the texels' values to units of 1/256.
-template <typename Texel>
-void halveEven(const Texel* from, unsigned scale, Fixed& to) {
+/// The four channels of a texel, 16 bits each.
+std::uint64_t loadTexel(const std::uint16_t* from) {
+    std::uint64_t texel = 0;
+    std::memcpy(&texel, from, sizeof texel);
+    return texel;
+}
+
+/// Averages four texels of equal weight; equals the general case without its divisions. Texels of 8
+/// bits give units of 1/256.
+void halveEven(const std::uint8_t* from, Fixed& to) {
+    const std::size_t stride = static_cast<std::size_t>(to.width) * 8;
+    std::vector<std::uint16_t> sums(stride);
+    std::uint16_t* out = to.values.data();
+    for (int y = 0; y < to.height; ++y, from += 2 * stride) {
+        for (std::size_t i = 0; i < stride; ++i)
+            sums[i] = static_cast<std::uint16_t>(from[i] + from[stride + i]);
+        for (std::size_t x = 0; x < stride; x += 8, out += 4) {
+            // 4 * 255 * 64 are 16 bits: no channel carries into another.
+            const std::uint64_t mean = (loadTexel(&sums[x]) + loadTexel(&sums[x + 4])) << 6U;
+            std::memcpy(out, &mean, sizeof mean);
+        }
+    }
+}
+
+void halveEven(const std::uint16_t* from, Fixed& to) {
+    constexpr std::uint64_t kLow = 0x0003000300030003U, kTwo = 0x0002000200020002U;
     const std::size_t stride = static_cast<std::size_t>(to.width) * 8;
     std::uint16_t* out = to.values.data();
-    for (std::size_t y = 0; y < static_cast<std::size_t>(to.height); ++y) {
-        const Texel* upper = from + 2 * y * stride;
-        const Texel* lower = upper + stride;
-        for (std::size_t x = 0; x < stride; x += 8)
-            for (std::size_t c = 0; c < 4; ++c) {
-                const unsigned sum =
-                    0U + upper[x + c] + upper[x + 4 + c] + lower[x + c] + lower[x + 4 + c];
-                *out++ = static_cast<std::uint16_t>((sum * scale + 2U) >> 2);
+    for (int y = 0; y < to.height; ++y, from += 2 * stride)
+        for (std::size_t x = 0; x < stride; x += 8, out += 4) {
+            // Quarters and their remainders apart, as the sum has 18 bits.
+            std::uint64_t quarters = 0, rest = kTwo;
+            for (const std::size_t at : {x, x + 4, stride + x, stride + x + 4}) {
+                const std::uint64_t texel = loadTexel(from + at);
+                quarters += (texel >> 2U) & ~(kLow << 14U);
+                rest += texel & kLow;
             }
-    }
+            const std::uint64_t mean = quarters + ((rest >> 2U) & kLow);
+            std::memcpy(out, &mean, sizeof mean);
+        }
 }
 
 Fixed halve(const Fixed& from) {
     Fixed to{std::max(1, from.width / 2), std::max(1, from.height / 2), {}};
     to.values.resize(static_cast<std::size_t>(to.width) * static_cast<std::size_t>(to.height) * 4);
     if (from.width % 2 == 0 && from.height % 2 == 0) {
-        halveEven(from.values.data(), 1, to);
+        halveEven(from.values.data(), to);
         return to;
     }
     const std::vector<Span> columns = spans(from.width, to.width);
@@ -113,7 +138,7 @@ std::vector<Image> buildMipmaps(const Image& base) {
             // Reads the base image directly, which saves twice its size in memory.
             level = Fixed{base.width / 2, base.height / 2, {}};
             level.values.resize(base.pixels.size() / 4);
-            halveEven(base.pixels.data(), 256, level);
+            halveEven(base.pixels.data(), level);
         } else {
             level = halve(level);
         }

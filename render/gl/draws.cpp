@@ -72,9 +72,11 @@ ProgramKey keyOf(const FramePlan& plan, const Pass& pass, const Batch& batch) {
     for (const EyeLight& light : plan.lightSets[set]) {
         if (!(light.diffuse.w > 0.0F)) break;
         ++key.shadows;
-        if (light.diffuse.w > 1.0F) ++key.shadowCubes;
+        if (light.diffuse.w == kCascadeShadow) ++key.shadowCascades;
+        if (light.diffuse.w == kCubeShadow) ++key.shadowCubes;
     }
     if (key.shadows == 0) key.features.remove(Feature::shadowed);
+    if (key.shadowCascades > 0) key.features.add(Feature::shadowCascade);
     if (key.shadowCubes > 0) key.features.add(Feature::shadowCube);
     return key;
 }

@@ -38,6 +38,7 @@ constexpr std::array<FeatureName, kFeatures> kNames{{
     {Feature::localViewer, "LOCAL_VIEWER"},
     {Feature::separateSpecular, "SEPARATE_SPECULAR"},
     {Feature::shadowed, "SHADOWED", true},
+    {Feature::shadowCascade, "SHADOW_CASCADE", true},
     {Feature::shadowCube, "SHADOW_CUBE", true},
     {Feature::markNotFinite, "MARK_NOT_FINITE"},
     {Feature::textured, "TEXTURED"},
@@ -80,10 +81,11 @@ std::string definesOf(const ProgramKey& key) {
     for (const FeatureName& row : kNames) {
         if (!key.features.has(row.feature)) continue;
         text += std::string("#define ") + row.name;
-        const int count = row.feature == Feature::eachSample   ? key.samples
-                          : row.feature == Feature::shadowed   ? key.shadows
-                          : row.feature == Feature::shadowCube ? key.shadowCubes
-                                                               : key.count;
+        const int count = row.feature == Feature::eachSample      ? key.samples
+                          : row.feature == Feature::shadowed      ? key.shadows
+                          : row.feature == Feature::shadowCascade ? key.shadowCascades
+                          : row.feature == Feature::shadowCube    ? key.shadowCubes
+                                                                  : key.count;
         if (row.counted) text += ' ' + std::to_string(count);
         text += '\n';
     }

@@ -19,6 +19,7 @@ struct ProgramKey {
     int count = 0;                      ///< of lights (lightCount) or samples (resolve)
     int samples = 0;                    ///< of the target (eachSample)
     int shadows = 0;                    ///< of the lights (shadowed)
+    int shadowCascades = 0;             ///< of those (shadowCascade)
     int shadowCubes = 0;                ///< of those (shadowCube)
     std::string_view surfaceKind = {};  ///< generator::SurfaceKind::glsl
     auto operator<=>(const ProgramKey&) const = default;

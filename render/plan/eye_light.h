@@ -8,12 +8,16 @@ namespace farol::render {
 
 struct PlacedLight;
 
+/// EyeLight::diffuse.w of lights that cast shadows. Shaders count them in this order, greatest
+/// first.
+inline constexpr float kMapShadow = 1.0F, kCubeShadow = 2.0F, kCascadeShadow = 3.0F;
+
 /// A light as shaders read it, in eye space.
 struct EyeLight {
     glm::vec4 position;     ///< w = 1: place; w = 0: unit vector towards the light
     glm::vec4 spot;         ///< unit direction of shining; w: cosine of the cutoff, -2: no cone
     glm::vec4 attenuation;  ///< constant, linear, quadratic; w: spot exponent
-    glm::vec4 diffuse;      ///< w: 1 where it casts shadows, by a cube 2
+    glm::vec4 diffuse;      ///< w: 0 where it casts no shadows, else as above
     glm::vec4 ambient;      ///< w: the index of its FramePlan::shadowLights
     glm::vec4 specular;
     bool operator==(const EyeLight&) const = default;

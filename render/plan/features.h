@@ -23,8 +23,9 @@ enum class Feature : std::uint8_t {
     specular,
     localViewer,
     separateSpecular,
-    shadowed,    ///< counted: lights with shadow maps, the first of all
-    shadowCube,  ///< counted: those of six maps, the first of these
+    shadowed,       ///< counted: lights with shadow maps, the first of all
+    shadowCascade,  ///< counted: those of several parallel maps, the first of these
+    shadowCube,     ///< counted: those of six maps, the next
     markNotFinite,
     // Texture.
     textured,

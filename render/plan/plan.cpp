@@ -179,7 +179,7 @@ class Planner {
             if (!style_.lit) continue;
             if (list.lights.empty()) chosen = inherited;
             for (const int index : set) chosen.push_back(lights[static_cast<std::size_t>(index)]);
-            if (style_.hasShadows)  // shaders count cubes, then other maps, from the first on
+            if (style_.hasShadows)  // shaders count their kinds from the first on
                 std::stable_sort(
                     chosen.begin(), chosen.end(),
                     [](const EyeLight& a, const EyeLight& b) { return a.diffuse.w > b.diffuse.w; });

@@ -27,6 +27,7 @@ EyeShadowLight eyeShadowLight(const PlannedShadows& shadows, const PlannedShadow
                               const ViewTransform& view) {
     EyeShadowLight out{};
     std::array<float, 8> layers{};
+    const bool isCascade = light.isCascade();
     const LightView* first = nullptr;
     for (std::size_t face = 0; face < 6; ++face) {
         out.faces[face] = glm::vec4(0.0F, 0.0F, 2.0F, 2.0F);
@@ -36,6 +37,11 @@ EyeShadowLight eyeShadowLight(const PlannedShadows& shadows, const PlannedShadow
         const glm::dvec2 middle = 0.5 * (map.min + map.max), half = 0.5 * (map.max - map.min);
         out.faces[face] = glm::vec4(glm::dvec4(1.0 / half, -middle / half));
         layers[face] = static_cast<float>(light.maps[face]);
+        if (!isCascade) continue;
+        const double range = map.farthest - map.nearest;
+        for (int i = 0; i < 2; ++i)
+            out.depths[face / 2][static_cast<int>(face % 2) * 2 + i] =
+                static_cast<float>((i == 0 ? -1.0 : map.farthest) / range);
     }
     out.layers = {glm::vec4(layers[0], layers[1], layers[2], layers[3]),
                   glm::vec4(layers[4], layers[5], 0.0F, 0.0F)};
@@ -58,7 +64,9 @@ void PlannedShadows::mark(std::vector<EyeLight>& list) const {
     for (std::size_t i = 0; i < ofLights.size(); ++i) {
         if (ofLights[i] < 0) continue;
         const PlannedShadowLight& light = lights[static_cast<std::size_t>(ofLights[i])];
-        list[i].diffuse.w = light.isCube ? 2.0F : 1.0F;
+        list[i].diffuse.w = light.isCube        ? kCubeShadow
+                            : light.isCascade() ? kCascadeShadow
+                                                : kMapShadow;
         list[i].ambient.w = static_cast<float>(ofLights[i]);
     }
 }

@@ -6,8 +6,10 @@
 #include <optional>
 #include <tuple>
 
+#include "render/plan/light_bounds.h"
 #include "render/plan/messages.h"
 #include "render/plan/shadow_bounds.h"
+#include "render/plan/shadow_splits.h"
 #include "scene/animation.h"
 
 namespace farol::render {
@@ -20,7 +22,7 @@ constexpr double kMargin = 4.0;          // texels round what casts, for the fil
 /// Spots of a larger cutoff have the maps of a point light.
 constexpr double kMaxSpotCutoffDeg = 60.0;
 /// Lights farther from the scene's middle than so many of its radii see all of it in one map.
-constexpr double kFar = 1.5;
+constexpr double kOutside = 1.5;
 /// Lights farther from what is in view than so many of its radii: their rays are parallel within
 /// half a texel, and depths along a perspective would be rounded more than that.
 constexpr double kParallel = 4096.0;
@@ -29,32 +31,13 @@ constexpr double kOneSide = 4.0;
 /// Depths of a map reach no farther than so many times its extent, where the view allows it: their
 /// rounding is 2e-6 of the range.
 constexpr double kDeepest = 256.0;
+/// Directional lights whose texels cover more pixels than so many have several maps: up to there
+/// the filter blurs an edge by two pixels or less to either side.
+constexpr double kCoarse = 1.5;
 /// A map farther from its origin than so many of its extents has another.
 constexpr double kFarOff = 64.0;
-
-struct Bounds {
-    glm::dvec3 min{1e300}, max{-1e300};
-    bool empty() const { return min.x > max.x; }
-    void add(const glm::dvec3& point) {
-        min = glm::min(min, point);
-        max = glm::max(max, point);
-    }
-};
-
-/// A place in light space as LightView::min and max have it, and its distance along the light.
-glm::dvec3 project(const glm::dvec3& light, bool isPerspective) {
-    const double away = -light.z;
-    return isPerspective ? glm::dvec3(light.x / away, light.y / away, away)
-                         : glm::dvec3(light.x, light.y, away);
-}
-
-glm::dmat3 rotationAlong(const glm::dvec3& forward) {
-    // Across is level where it can be: a ground is then as short in the map as the light is low.
-    glm::dvec3 up(0.0, 1.0, 0.0);
-    if (std::abs(forward.y) > 0.9999) up = glm::dvec3(0.0, 0.0, -1.0);
-    const glm::dvec3 right = glm::normalize(glm::cross(forward, up));
-    return glm::transpose(glm::dmat3(right, glm::cross(right, forward), -forward));
-}
+/// One farther than so many is looked at again as those that are too coarse.
+constexpr double kAside = 8.0;
 
 bool isBlack(const scene::Light& light, double timeS) {
     return scene::colorAt(light.diffuse, timeS) == glm::vec3(0.0F) &&
@@ -78,7 +61,10 @@ class ShadowPlanner {
                 used[static_cast<std::size_t>(light)] = true;
         for (std::size_t i = 0; i < used.size(); ++i)
             if (used[i] && !isBlack(*list_.lights[i].light, timeS_)) addLight(i);
-        if (!out_.maps.empty()) fit();
+        if (!out_.maps.empty()) {
+            split();
+            fit();
+        }
         if (leftOut_ > 0)
             findings.push_back(diagnosticOf(
                 Severity::warning,
@@ -101,6 +87,7 @@ class ShadowPlanner {
         for (int& map : light.maps)
             if (map >= 0) map += static_cast<int>(out_.maps.size());
         out_.ofLights[index] = static_cast<int>(out_.lights.size());
+        if (!maps[0].light.isPerspective) parallels_.push_back({out_.lights.size(), casters_});
         out_.lights.push_back(light);
         out_.maps.insert(out_.maps.end(), maps.begin(), maps.end());
     }
@@ -136,7 +123,7 @@ class ShadowPlanner {
         const bool isSpot =
             light.type == scene::LightType::spot && length > 0.0 && light.cutoffDeg < 180.0;
         const double distance = glm::length(middle - seen.origin);
-        if ((isSpot && light.cutoffDeg <= kMaxSpotCutoffDeg) || distance > kFar * radius_) {
+        if ((isSpot && light.cutoffDeg <= kMaxSpotCutoffDeg) || distance > kOutside * radius_) {
             // From afar all of the scene is within a cone, too.
             const bool isNarrow = isSpot && light.cutoffDeg <= kMaxSpotCutoffDeg;
             seen.rotation = out.rotation =
@@ -237,38 +224,15 @@ class ShadowPlanner {
         return angle > glm::radians(cutoffDeg + 55.5);
     }
 
-    /// Where a box lies in the map; `reachesBehind`: a perspective has no bounds for it.
-    static Bounds boundsOf(const std::array<glm::dvec3, 8>& corners, const LightView& light,
-                           bool& reachesBehind) {
-        Bounds bounds;
-        bool isAnyBefore = false;
-        reachesBehind = false;
-        for (const glm::dvec3& corner : corners) {
-            const glm::dvec3 at = light.rotation * (corner - light.origin);
-            if (light.isPerspective && -at.z <= 1e-6 * glm::length(at)) {
-                reachesBehind = true;
-                continue;
-            }
-            isAnyBefore = true;
-            bounds.add(project(at, light.isPerspective));
-        }
-        if (!isAnyBefore) return {};  // wholly behind
-        if (reachesBehind) {
-            bounds.min = glm::dvec3(-1e300, -1e300, 0.0);
-            bounds.max = glm::dvec3(1e300, 1e300, bounds.max.z);
-        }
-        return bounds;
-    }
-
     /// Adds the map, cut to what casts and, where that is much less, to what is in view. Returns
     /// false where nothing is left.
     bool add(LightView light, std::vector<PlannedShadowMap>& maps) {
         PlannedShadowMap map;
-        Bounds casting, receiving;
-        std::vector<Bounds> each;
+        LightBounds casting, receiving;
+        std::vector<LightBounds> each;
         bool reachesBehind = false;
         for (const std::size_t i : casters_) {
-            const Bounds bounds = boundsOf(boxes_[i].corners, light, reachesBehind);
+            const LightBounds bounds = boundsOf(boxes_[i].corners, light, reachesBehind);
             if (bounds.empty()) continue;
             map.casters.push_back(i);
             each.push_back(bounds);
@@ -278,7 +242,7 @@ class ShadowPlanner {
         if (map.casters.empty()) return false;
         for (const CastingBox& box : boxes_) {
             if (!box.isThere) continue;
-            const Bounds bounds = boundsOf(box.corners, light, reachesBehind);
+            const LightBounds bounds = boundsOf(box.corners, light, reachesBehind);
             if (bounds.empty()) continue;
             receiving.add(bounds.min);
             receiving.add(bounds.max);
@@ -292,7 +256,7 @@ class ShadowPlanner {
         light.farthest = receiving.max.z;
         std::size_t kept = 0;
         for (std::size_t k = 0; k < each.size(); ++k) {
-            const Bounds& bounds = each[k];
+            const LightBounds& bounds = each[k];
             if (bounds.min.x > light.max.x || bounds.max.x < light.min.x ||
                 bounds.min.y > light.max.y || bounds.max.y < light.min.y)
                 continue;
@@ -369,12 +333,20 @@ class ShadowPlanner {
         light.farthest = farthest;
     }
 
+    /// Of a parallel map, and of its middle from its origin.
+    static double sizeOf(const LightView& light) {
+        return extent(light) + light.farthest - light.nearest;
+    }
+    static double distanceOf(const LightView& light) {
+        return glm::length(
+            glm::dvec3(0.5 * (light.min + light.max), 0.5 * (light.nearest + light.farthest)));
+    }
+
     /// Floats hold places in the map only near its origin.
     static void recenter(LightView& light) {
+        if (distanceOf(light) <= kFarOff * sizeOf(light)) return;
         const glm::dvec2 middle = 0.5 * (light.min + light.max);
         const double away = 0.5 * (light.nearest + light.farthest);
-        const double size = extent(light) + light.farthest - light.nearest;
-        if (glm::length(glm::dvec3(middle, away)) <= kFarOff * size) return;
         light.origin += glm::transpose(light.rotation) * glm::dvec3(middle, -away);
         light.min -= middle;
         light.max -= middle;
@@ -383,7 +355,7 @@ class ShadowPlanner {
     }
 
     void cutToView(LightView& light) {
-        Bounds part;
+        LightBounds part;
         if (!addInFront(light, seen(), part)) {
             // Of a scene all round a light that is far from what is in view, one side alone is
             // seen.
@@ -396,40 +368,65 @@ class ShadowPlanner {
             light.max = light.min - 1.0;  // nothing is in view
             return;
         }
-        const auto ofLight = [&light](const Bounds& bounds) {
+        const auto ofLight = [&light](const LightBounds& bounds) {
             return std::pair(glm::max(light.min, glm::dvec2(bounds.min)),
                              glm::min(light.max, glm::dvec2(bounds.max)));
         };
         const auto [min, max] = ofLight(part);
         const glm::dvec2 whole = light.max - light.min, size = max - min;
         if (size.x >= 0.5 * whole.x && size.y >= 0.5 * whole.y) return;
-        Bounds models;
+        LightBounds models;
         if (!addInFront(light, visible(), models) || models.empty()) models = part;
         std::tie(light.min, light.max) = ofLight(models);
     }
 
-    /// Adds where places lie in the map; false where one is behind the light.
-    static bool addInFront(const LightView& light, const std::vector<glm::dvec3>& places,
-                           Bounds& bounds) {
-        bool areInFront = true;
-        for (const glm::dvec3& place : places) {
-            const glm::dvec3 at = light.rotation * (place - light.origin);
-            if (light.isPerspective && -at.z <= 1e-3 * glm::length(at))
-                areInFront = false;
-            else
-                bounds.add(project(at, light.isPerspective));
+    /// Of each of so many maps, texels.
+    int sideOf(int maps) const {
+        const int longer = std::max(view_.size.x, view_.size.y);
+        const double share = std::sqrt(kMaxTexels / static_cast<double>(maps));
+        const double wanted =
+            std::clamp(kTexelsPerPixel * longer, double{kMinSide}, double{kMaxMapSide});
+        const double side = std::min({wanted, share, static_cast<double>(gl_.maxTargetSide)});
+        return std::max(64, static_cast<int>(side) / 64 * 64);
+    }
+
+    /// Replaces parallel maps that are coarser than pixels, or whose depths are rounded as
+    /// coarsely, by those of parts of the view.
+    void split() {
+        const auto usableSide = [this](int maps) {
+            return sideOf(maps) - static_cast<int>(2.0 * kMargin);
+        };
+        const auto count = static_cast<int>(out_.maps.size());
+        std::vector<WideLight> wide;
+        std::vector<PlannedShadowLight*> lights;
+        for (const Parallel& parallel : parallels_) {
+            PlannedShadowLight& light = out_.lights[parallel.light];
+            const LightView& map = out_.maps[static_cast<std::size_t>(light.maps[0])].light;
+            const double texel = extent(map) / usableSide(count);
+            const bool isRough = map.farthest - map.nearest > kDeepest * extent(map) ||
+                                 distanceOf(map) > kAside * sizeOf(map);
+            if (!isRough && !mayBeCoarse(boxes_, view_, texel)) continue;
+            LitDepths depths(list_, boxes_, view_, map);
+            const double pixels = std::max(depths.pixelsOf(texel), isRough ? 2.0 : 0.0);
+            if (pixels <= kCoarse) continue;
+            wide.push_back({std::move(depths), pixels, parallel.casters});
+            lights.push_back(&light);
         }
-        return areInFront;
+        if (wide.empty()) return;
+        const auto split = splitMaps(wide, boxes_, count, usableSide);
+        for (std::size_t i = 0; i < split.size(); ++i)
+            for (std::size_t k = 0; k < split[i].size(); ++k) {
+                int& map = lights[i]->maps[k];
+                if (k > 0) map = static_cast<int>(out_.maps.size());
+                if (k > 0) out_.maps.emplace_back();
+                out_.maps[static_cast<std::size_t>(map)] = split[i][k];
+                lights[i]->rotation = split[i][k].light.rotation;
+            }
     }
 
     /// The size of the maps, and of their texels.
     void fit() {
-        const int longer = std::max(view_.size.x, view_.size.y);
-        const double share = std::sqrt(kMaxTexels / static_cast<double>(out_.maps.size()));
-        const double wanted =
-            std::clamp(kTexelsPerPixel * longer, double{kMinSide}, double{kMaxMapSide});
-        const double side = std::min({wanted, share, static_cast<double>(gl_.maxTargetSide)});
-        out_.side = std::max(64, static_cast<int>(side) / 64 * 64);
+        out_.side = sideOf(static_cast<int>(out_.maps.size()));
         for (PlannedShadowMap& map : out_.maps) {
             LightView& light = map.light;
             const glm::dvec2 middle = 0.5 * (light.min + light.max);
@@ -447,6 +444,11 @@ class ShadowPlanner {
         }
     }
 
+    struct Parallel {
+        std::size_t light;                 ///< of PlannedShadows::lights
+        std::vector<std::size_t> casters;  ///< that may be in its maps
+    };
+
     const InstanceList& list_;
     const ViewTransform& view_;
     double timeS_;
@@ -457,6 +459,7 @@ class ShadowPlanner {
     int leftOut_ = 0;                   ///< lights for which no maps are left
     std::vector<CastingBox> boxes_;     ///< of the instances
     std::vector<std::size_t> casters_;  ///< of the light at hand
+    std::vector<Parallel> parallels_;
     std::optional<std::vector<glm::dvec3>> seen_, visible_;
 };
 

@@ -14,6 +14,8 @@ namespace farol::render {
 
 /// Most maps of a frame; a light that shines to all sides needs up to six.
 inline constexpr int kMaxShadowMaps = 64;
+/// Most maps of a directional light.
+inline constexpr int kMaxCascade = 4;
 
 /// A light as a camera: light space has it at the origin, looking along -Z. Directional lights have
 /// their origin in the middle of the scene.
@@ -36,12 +38,13 @@ struct PlannedShadowMap {
     std::vector<std::size_t> casters;  ///< indices into InstanceList::instances
 };
 
-/// The maps of a light. A cube has the faces +X, -X, +Y, -Y, +Z, -Z of world space, other lights
-/// the first alone.
+/// The maps of a light. A cube has the faces +X, -X, +Y, -Y, +Z, -Z of world space, a cascade its
+/// maps from the finest to the coarsest, other lights the first alone.
 struct PlannedShadowLight {
     glm::dmat3 rotation{1.0};  ///< that of its map, or of a cube
     bool isCube = false;
     std::array<int, 6> maps{-1, -1, -1, -1, -1, -1};  ///< of PlannedShadows::maps, -1: none
+    bool isCascade() const { return !isCube && maps[1] >= 0; }
 };
 
 struct PlannedShadows {
@@ -64,6 +67,7 @@ struct EyeShadowLight {
     glm::vec4 facts;
     std::array<glm::vec4, 6> faces;   ///< scale and offset; scale 0: no map
     std::array<glm::vec4, 2> layers;  ///< of the faces
+    std::array<glm::vec4, 2> depths;  ///< of a cascade: facts.yz of two maps each
 };
 
 EyeShadowLight eyeShadowLight(const PlannedShadows& shadows, const PlannedShadowLight& light,

@@ -58,6 +58,7 @@ std::string random(Sweep& sweep) {
     const double kind = sweep.between(0.0, 1.0);
     if (kind < 0.35) {
         light = "<light type=\"directional\"" + place("dir", towards) + "/>";
+        if (sweep.chance(0.5)) camera.far = size * sweep.power(25.0, 1e7);
     } else {
         const glm::dvec3 at = origin + towards * size * sweep.power(3.0, 1e9);
         light = std::string("<light type=\"") + (kind < 0.65 ? "spot" : "point") + '"' +

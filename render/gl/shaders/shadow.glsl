@@ -5,13 +5,19 @@ struct ShadowLight {
     vec4 facts;            // depth at distance 1, or 0; depth of a unit and at distance 0
     vec4 faces[6];         // scale, offset
     vec4 layers[2];
+    vec4 depths[2];        // of cascades, two maps each: depth of a unit and at distance 0
 };
 layout(std140, binding = 1) uniform ShadowLights { ShadowLight shadowLights[SHADOWED]; };
 layout(binding = 3) uniform sampler2DArray shadowDepths;  // reversed; beyond an edge 0: nothing
-#ifdef SHADOW_CUBE
-const int kCubes = SHADOW_CUBE;  // the first lights
+#ifdef SHADOW_CASCADE
+const int kCascades = SHADOW_CASCADE;  // the first lights
 #else
-const int kCubes = 0;
+const int kCascades = 0;
+#endif
+#ifdef SHADOW_CUBE
+const int kCubes = kCascades + SHADOW_CUBE;  // the next
+#else
+const int kCubes = kCascades;
 #endif
 uniform vec3 shadowOffset;  // texels, share of the distance; units, of faces turned away
 
@@ -32,10 +38,20 @@ float litTexels(vec2 corner, vec2 size, float layer, float depth, vec2 slope, ve
 
 // Percentage-closer filter of 3 x 3 texels (Reeves, Salesin, Cook 1987): each of 4 x 4 texels is
 // compared with the depth of the receiver's tangent plane at the texel's own middle, so that no
-// slope needs a bias. `index` is a constant: llvmpipe reads others for each pixel. It has no loops,
+// slope needs a bias. Of cascades it is the first, thus finest map that has the place and the texels
+// round it. `index` is a constant: llvmpipe reads others for each pixel. It has no loops,
 // which take llvmpipe several times as long.
-#define FIND_SHARE(index) shares[index] = shareOfLight(shadowLights[index], index < kCubes, position)
-float shareOfLight(ShadowLight light, bool isCube, vec3 position) {
+#define FIND_SHARE(index) shares[index] = \
+    shareOfLight(shadowLights[index], index >= kCascades && index < kCubes, index < kCascades, position)
+#define TRY_MAP(i, layerOf, depthsOf)                                                        \
+    if (all(lessThanEqual(abs(vec3(at.xy * light.faces[i].xy + light.faces[i].zw,            \
+                                   2.0 * (depthsOf.y - depthsOf.x * at.z) - 1.0)),           \
+                          vec3(inner, 1.0)))) {                                              \
+        face = light.faces[i];                                                               \
+        layer = layerOf;                                                                     \
+        depths = depthsOf;                                                                   \
+    }
+float shareOfLight(ShadowLight light, bool isCube, bool isCascade, vec3 position) {
     vec2 size = vec2(textureSize(shadowDepths, 0).xy);
     float away = length(position);
     bool isPerspective = light.facts.x > 0.0;
@@ -44,6 +60,21 @@ float shareOfLight(ShadowLight light, bool isCube, vec3 position) {
     vec3 normal = mat3(lightFromEye) * receiverNormal;
     vec4 face = light.faces[0];
     float layer = light.layers[0].x;
+    vec2 depths = light.facts.yz;
+#ifdef SHADOW_CASCADE
+    if (isCascade) {
+        vec2 inner = 1.0 - 5.0 / size;
+        vec3 at = place;
+#ifndef SURFACE
+        if (normal.z <= 0.0) at += receiverOffset.z * normal;
+#endif
+        face = vec4(0.0);
+        TRY_MAP(3, light.layers[0].w, light.depths[1].zw)
+        TRY_MAP(2, light.layers[0].z, light.depths[1].xy)
+        TRY_MAP(1, light.layers[0].y, light.depths[0].zw)
+        TRY_MAP(0, light.layers[0].x, light.depths[0].xy)
+    }
+#endif
     if (isCube) {
         vec3 reach = abs(place);
         if (reach.x >= reach.y && reach.x >= reach.z) {
@@ -85,13 +116,13 @@ float shareOfLight(ShadowLight light, bool isCube, vec3 position) {
     // Planes are planes in the map as well: depth is linear across and up.
     float facing = isPerspective ? dot(normal, place) : normal.z;
     facing = abs(facing) < 1e-20 ? 1e-20 : facing;
-    float unit = isPerspective ? light.facts.x / (along * along) : -light.facts.y;  // of distance
+    float unit = isPerspective ? light.facts.x / (along * along) : -depths.x;  // of distance
     vec2 slope = normal.xy * perTexel *
-                 (isPerspective ? light.facts.x / facing : light.facts.y / facing);
+                 (isPerspective ? light.facts.x / facing : depths.x / facing);
 #ifndef SURFACE
     if (isTurnedAway) slope = vec2(0.0);
 #endif
-    float depth = isPerspective ? light.facts.x / along : light.facts.z - light.facts.y * place.z;
+    float depth = isPerspective ? light.facts.x / along : depths.y - depths.x * place.z;
     // Rounding: of places, of depths, and of the rasteriser's grid.
     depth += 4e-7 * away * unit + (isPerspective ? 2e-6 * depth : 2e-6) +
              (abs(slope.x) + abs(slope.y)) / 32.0;

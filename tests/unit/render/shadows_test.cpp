@@ -218,6 +218,53 @@ TEST_CASE("other shadings have no shadows, with a warning that names the fix") {
     CHECK_FALSE(draw(jobOf(floorWith(ball))).has("scene.shadows"));
 }
 
+TEST_CASE("a view to the horizon has several maps of a sun, without seams, within the texels") {
+    // Balls along the view, of which each has its shadow beside it.
+    std::string balls;
+    for (int i = 0; i < 12; ++i)
+        balls += at("x=\"-1\" y=\"0.6\" z=\"" + std::to_string(-2 - i * i * 3) + '"', kBall);
+    const std::string xml = R"(<world><render shadows="map"/><camera><position y="2" z="2"/>
+        <lookAt y="1" z="-4"/><projection fov="50" near="0.1" far="2000"/></camera><lights>
+        <light type="directional" dirX="-1" dirY="1"/></lights>
+        <group><models><model command="plane 2000"/></models></group>)" +
+                            balls + "</world>";
+    render::Job job = jobOf(xml);
+    job.options.width = job.options.height = 256;
+    const Drawn on = draw(job);
+    CHECK(on.picture.stats.shadowMaps > 1);
+    CHECK(on.picture.stats.shadowMaps <= render::kMaxCascade);
+    job.options.shadows = Shadows::off;
+    const Drawn off = draw(job);
+    const auto isDark = [&](int x, int y) {
+        const auto i = static_cast<std::size_t>(4 * (y * 256 + x));
+        return off.image.pixels[i] - on.image.pixels[i] > 20;
+    };
+    int seams = 0, dark = 0;
+    for (int y = 4; y < 252; ++y)
+        for (int x = 4; x < 252; ++x) {
+            dark += isDark(x, y) ? 1 : 0;
+            bool isBeside = false;
+            for (int k = 0; k < 81; ++k) isBeside |= isDark(x + k % 9 - 4, y + k / 9 - 4);
+            const auto i = static_cast<std::size_t>(4 * (y * 256 + x));
+            if (!isBeside && std::abs(off.image.pixels[i] - on.image.pixels[i]) > 1) ++seams;
+        }
+    CHECK(seams == 0);
+    CHECK(dark > 300);
+
+    scene::Scene scene = scene::read(xml, {}, scene::BundleAssets()).scene;
+    Diagnostics findings;
+    generator::resolve(scene, scene::BundleAssets(), findings);
+    render::MeshLibrary meshes(std::size_t{64} << 20);
+    render::PictureOptions options;
+    options.width = 1920;
+    options.height = 1080;
+    const render::FramePlan plan =
+        support::planScene(scene, options, scene::BundleAssets(), meshes);
+    CHECK(plan.shadowMaps.size() > 1);
+    CHECK(plan.shadowMaps.size() * static_cast<std::size_t>(plan.shadowSide * plan.shadowSide) <=
+          std::size_t{16} << 20);
+}
+
 TEST_CASE("lights over the limit of maps shine without shadows, with a warning") {
     std::string suns;
     for (int i = 0; i < render::kMaxShadowMaps + 2; ++i)

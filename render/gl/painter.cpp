@@ -204,8 +204,10 @@ Target::Resolver Painter::State::resolver(int samples) {
 void Painter::State::begin(const FramePlan& plan, const Pass& pass) {
     const PassTarget& wanted = pass.target;
     const glm::ivec2 whole = plan.view.size * wanted.scale;
-    const Target::Format format{whole.x, wanted.rows * wanted.scale, wanted.samples, false};
-    if (!target || target->format() != format) {
+    Target::Format format{whole.x, wanted.rows * wanted.scale, wanted.samples, false};
+    for (const glm::ivec4& part : plan.covered)
+        format.drawn = glm::max(format.drawn, glm::ivec2(part.x + part.z, part.y + part.w));
+    if (!target || !target->suits(format)) {
         peeler.reset();
         target.reset();  // the old one first: two large ones need not fit
         target.emplace(api, format, facts.packInvert);

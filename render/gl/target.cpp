@@ -34,9 +34,10 @@ void check(const Api& api) {
 
 Target::Target(const Api& api, const Format& format, bool packInvert)
     : api_(api), format_(format), packInvert_(packInvert), drawn_(api) {
-    const auto [width, height, samples, isFloat] = format;
-    color_ = storage(api, isFloat ? GL_RGBA16F : GL_RGBA8, width, height, samples);
-    depth_ = storage(api, GL_DEPTH_COMPONENT32F, width, height, samples);
+    const auto [width, height, samples, isFloat, part] = format;
+    const glm::ivec2 drawn = part.x > 0 ? part : glm::ivec2(width, height);
+    color_ = storage(api, isFloat ? GL_RGBA16F : GL_RGBA8, drawn.x, drawn.y, samples);
+    depth_ = storage(api, GL_DEPTH_COMPONENT32F, drawn.x, drawn.y, samples);
     const auto attach = [&](GLenum point, const Texture& texture, GLenum kind) {
         api.FramebufferTexture2D(GL_FRAMEBUFFER, point, kind, texture.name(), 0);
     };
@@ -50,6 +51,18 @@ Target::Target(const Api& api, const Format& format, bool packInvert)
     api.BindFramebuffer(GL_FRAMEBUFFER, resolved_.name());
     attach(GL_COLOR_ATTACHMENT0, resolvedColor_, GL_TEXTURE_2D);
     check(api);
+}
+
+bool Target::suits(const Format& format) const {
+    Format same = format;
+    same.drawn = format_.drawn;
+    if (same != format_) return false;
+    const glm::ivec2 whole(format.width, format.height);
+    const glm::ivec2 has = format_.drawn.x > 0 ? format_.drawn : whole;
+    const glm::ivec2 needs = format.drawn.x > 0 ? format.drawn : whole;
+    constexpr std::int64_t kMostSpare = 4;  // a new target costs its pages
+    return has.x >= needs.x && has.y >= needs.y &&
+           std::int64_t{has.x} * has.y <= kMostSpare * needs.x * needs.y;
 }
 
 GLenum Target::textureKind() const {

@@ -16,12 +16,18 @@ class Target {
         int width = 0, height = 0;
         int samples = 1;
         bool isFloat = false;  ///< colours in half floats, else in 8 bits
+        /// The part from the lower left that can be drawn to, px; 0: all. Where there are samples,
+        /// the rest of the image is only cleared.
+        glm::ivec2 drawn{0};
         bool operator==(const Format&) const = default;
     };
 
     /// `packInvert`: of GlFacts. Throws std::bad_alloc when GL refuses.
     Target(const Api& api, const Format& format, bool packInvert);
     const Format& format() const { return format_; }
+    /// True where frames of the format are drawn as by their own target: of the same size and
+    /// samples, and whose part that can be drawn to is at least theirs, and not much more.
+    bool suits(const Format& format) const;
     /// The program that makes the mean of a pixel's samples, and an array without attributes.
     /// (glBlitFramebuffer does the same, but Mesa keeps no compiled code of its shader: it took
     /// 25 ms of every new process.)

@@ -135,3 +135,27 @@ TEST_CASE("samples that are resolved only where models are give the same image")
             CHECK(image.pixels == whole.pixels);
         }
 }
+
+TEST_CASE("a model that moves over the image looks as if each frame had its own target") {
+    render::Renderer renderer;
+    render::Job job;
+    job.options.width = 500;
+    job.options.height = 300;
+    job.options.samples = 4;
+    // Small in a corner, larger and larger, over the whole image, and small again.
+    for (const double distance : {60.0, 30.0, 12.0, 2.0, 9.0, 25.0, 90.0, 90.0, 30.0}) {
+        job.xml = "<world><camera><position x=\"0\" y=\"0\" z=\"" + std::to_string(distance) +
+                  "\"/><lookAt x=\"" + std::to_string(distance * 0.5) +
+                  "\" y=\"0\" z=\"0\"/></camera><group><models>"
+                  "<model file=\"sphere_1_20_20.3d\"/></models></group></world>";
+        image::Image image;
+        renderer.draw(job, image);
+        image::Image whole;
+        render::Renderer other;
+        job.drawUnseen = true;
+        other.draw(job, whole);
+        job.drawUnseen = false;
+        CAPTURE(distance);
+        CHECK(image.pixels == whole.pixels);
+    }
+}

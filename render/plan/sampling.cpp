@@ -13,8 +13,8 @@ Sampling chooseSampling(int wanted, const GlFacts& gl, int side) {
                 return {1, static_cast<int>(pattern.size()), 1};
     // Chosen by time against error (docs/benchmarks/accuracy.md). Each pass draws all triangles
     // again; within a pass the samples form a regular grid.
-    constexpr std::array<Sampling, 5> kLarger{
-        {{2, 1, 1}, {3, 1, 1}, {2, 1, 2}, {2, 1, 4}, {1, 1, 16}}};
+    constexpr std::array<Sampling, 6> kLarger{
+        {{2, 1, 1}, {3, 1, 1}, {2, 1, 2}, {3, 1, 2}, {2, 1, 4}, {1, 1, 16}}};
     for (const Sampling& one : kLarger)
         if (one.scale * one.scale * one.passes >= wanted && one.scale * side <= gl.maxTargetSide)
             return one;

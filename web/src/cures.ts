@@ -2,6 +2,7 @@
 // first finding.
 import { signal } from '@preact/signals';
 import { curesOf } from '../derive/cures.ts';
+import { language } from './words.ts';
 
 const cures = signal<Record<string, string>>({});
 let isRequested = false;
@@ -11,7 +12,9 @@ export function setCatalogue(catalogue: string): void {
   cures.value = curesOf(catalogue);
 }
 
+/** Empty in other languages than the catalogue's: the sentence of the finding, which is translated, says how to fix it, too. */
 export function cureOf(code: string): string {
+  if (language.value !== 'en') return '';
   if (!isRequested) {
     isRequested = true;
     import('document:errors').then((module) => setCatalogue(module.default), () => { isRequested = false; });

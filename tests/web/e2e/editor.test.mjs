@@ -121,6 +121,11 @@ test('the reference shows the element at the cursor, marks the attribute, and ca
   assert.equal(await reference.locator('.here').count(), 0);
   await reference.getByRole('button', { name: 'color', exact: true }).click();
   assert.equal(await element.inputValue(), 'color');
+  // What is selected in the tree is the element at the cursor.
+  await view.page.getByRole('tab', { name: 'Tree' }).click();
+  await view.page.getByRole('treeitem', { name: 'Camera' }).click();
+  await view.page.getByRole('tab', { name: 'XML' }).click();
+  await view.page.waitForFunction(() => document.querySelector('.reference select')?.value === 'camera');
   await view.page.getByRole('button', { name: 'Reference', exact: true }).click();
   await reference.waitFor({ state: 'detached' });
   await view.page.reload();
@@ -210,7 +215,7 @@ test('a folder with textures is stored and opened, and its link works for others
 test('a broken scene that is dropped shows its diagnostics, and is mended in place', async () => {
   const view = await openPage(browser, `${server.url}/`, { viewport: { width: 1000, height: 640 } });
   await view.page.waitForSelector('.card:not(.ghost)');
-  const broken = '<world>\n  <group>\n    <models>\n      <model file="nothing.3d"/>\n      <model file="sphere_1_16_8.3d"/>\n    </models>\n  </group>\n</world>\n';
+  const broken = '<world><title>A try</title>\n  <group>\n    <models>\n      <model file="nothing.3d"/>\n      <model file="sphere_1_16_8.3d"/>\n    </models>\n  </group>\n</world>\n';
   const data = await view.page.evaluateHandle((text) => {
     const transfer = new DataTransfer();
     transfer.items.add(new File([text], 'broken.xml', { type: 'text/xml' }));
@@ -220,6 +225,7 @@ test('a broken scene that is dropped shows its diagnostics, and is mended in pla
   await view.page.dispatchEvent('body', 'drop', { dataTransfer: data });
   await view.page.locator('.findings .error').first().waitFor();
   await view.page.locator('.cm-content').waitFor();
+  assert.equal(await view.page.locator('h1').innerText(), 'A try');
   await view.page.waitForFunction(() => document.querySelector('.code').shadowRoot.querySelector('.cm-lintRange-error'));
   assert.deepEqual((await marked(view, 'error')).map((line) => line.trim()), ['<model file="nothing.3d"/>']);
   await typeAfter(view, 'nothing.3d', 'box_1_1.3d', 10);

@@ -156,6 +156,14 @@ test('details: both images and their difference, causes with lines, and the docu
   assert.ok(await source.evaluate((one) => one === document.activeElement));
   assert.equal(await detail.locator('.source [contenteditable], .source textarea').count(), 0);
   await detail.getByRole('button', { name: 'Close the document' }).click();
+  // Another panel begins at its top.
+  const body = view.page.locator('.panels > [role=tabpanel]');
+  await body.evaluate((one) => (one.scrollTop = 400));
+  assert.ok((await body.evaluate((one) => one.scrollTop)) > 100);
+  await view.page.getByRole('tab', { name: 'Rubric' }).click();
+  await view.page.getByRole('region', { name: 'Rubric' }).waitFor();
+  assert.equal(await body.evaluate((one) => one.scrollTop), 0);
+  await view.page.getByRole('tab', { name: 'Details' }).click();
   // The other task is another cause.
   await taskOf(view, 'ball');
   assert.match(await detail.locator('.causes').first().innerText(), /cone|shape/);

@@ -14,7 +14,7 @@ const scenes = {
   warned: sceneOf([model('box_2_2.3d')], '<lights><light type="spot" dirX="1" dirY="2" dirZ="3"/></lights>\n'),
   crate: sceneOf([model('box_2_2.3d', '<texture file="wood.png"/>')]),
   failed: 'sphere { <0, 0, 0>, 1 }\n',
-  titled: sceneOf([model('nothing.3d')], '<title>Half a house</title>\n'),
+  titled: sceneOf([model('box_2_2.3d'), model('spere_1_8_4.3d')], '<title>Half a house</title>\n'),
   many: sceneOf(Array.from({ length: 16 }, (_, i) => model(`missing-mesh-with-a-rather-long-name-number-${i}.obj`))),
 };
 before(async () => {
@@ -81,6 +81,47 @@ test('a scene with errors has its title, and the name of its file where none can
   await view.page.getByRole('link', { name: /^Untitled scene/ }).waitFor();
   assert.ok(!(await view.page.locator('main').innerText()).includes(id.slice(1)), 'the id is not shown');
   assert.equal((await fetch(`${server.url}/v1/scenes/${encodeURIComponent(id)}`, { method: 'DELETE' })).status, 204);
+  await view.close();
+});
+
+test('beside open findings nothing is covered: the tools on a wide screen, the head on a phone', async () => {
+  const bottom = async (locator) => {
+    const { y, height } = await locator.boundingBox();
+    return y + height;
+  };
+  const view = await open('#/scene/titled', { ...wide, remembered: { 'farol.panel': 'tree' } });
+  await inState(view, 'incomplete');
+  await view.page.getByRole('treeitem', { name: 'box_2_2.3d', exact: true }).click();
+  await settled(view);
+  const bar = view.page.locator('.gizmo-bar'), tab = view.page.locator('.drawer-tab');
+  assert.ok(await view.page.locator('.drawer-body').isVisible());
+  assert.ok((await bottom(bar)) <= (await tab.boundingBox()).y, 'the tools end above the findings');
+  assert.ok((await bar.boundingBox()).y >= (await bottom(note(view, 'incomplete'))), 'and begin below the note');
+  // What has no mesh is none to be saved.
+  await view.page.getByRole('tab', { name: /^Files/ }).click();
+  await view.page.getByRole('button', { name: 'Download box_2_2.3d as OBJ' }).waitFor();
+  assert.equal(await view.page.getByRole('button', { name: /spere.* as OBJ/ }).count(), 0);
+  await view.close();
+  const phone = await open('#/scene/titled', { viewport: { width: 360, height: 740 }, hasTouch: true, isMobile: true, deviceScaleFactor: 1 });
+  await inState(phone, 'incomplete');
+  const [icon, words] = await Promise.all([note(phone, 'incomplete').locator('svg').boundingBox(), note(phone, 'incomplete').locator('span').boundingBox()]);
+  assert.ok(icon.y < words.y + words.height && words.x > icon.x + icon.width, 'the icon is beside its words');
+  await phone.page.getByRole('button', { name: 'Panel', exact: true }).tap();
+  await phone.page.locator('.panel').waitFor();
+  assert.ok((await phone.page.locator('.drawer-tab').boundingBox()).y >= (await bottom(phone.page.locator('.toolbar'))), 'the findings end below the tools');
+  await phone.close();
+});
+
+test('what cannot be stored says why, where it was asked for', async () => {
+  const view = await open('#/scene/titled');
+  await inState(view, 'incomplete');
+  await view.page.locator('.stage').focus();
+  for (const key of ['l', 'x']) await view.page.keyboard.press(key); // a light that moves with the camera is an edit
+  await settled(view);
+  await view.page.getByRole('button', { name: 'Share', exact: true }).click();
+  await view.page.getByRole('button', { name: 'Store them and get a link' }).click();
+  assert.match(await view.page.locator('dialog.share').getByRole('alert').innerText(), /^Not stored\. .*spere_1_8_4/);
+  await view.page.keyboard.press('Escape');
   await view.close();
 });
 

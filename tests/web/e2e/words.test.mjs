@@ -127,6 +127,7 @@ test('the page is in the browser’s language; the choice is kept, and findings 
   assert.equal(await language(), 'pt');
   await page.getByRole('button', { name: 'Anular' }).waitFor();
   assert.match(await findings(), /^Linha 1, coluna \d+: /);
+  assert.equal(await page.locator('.drawer .findings small').count(), 0, 'the catalogue is in English');
   assert.deepEqual(await translationsOf(view), ['pt'], 'one translation is loaded');
   await page.getByRole('combobox', { name: 'Língua' }).selectOption('cs');
   await page.getByRole('button', { name: 'Sdílet' }).waitFor();
@@ -138,7 +139,28 @@ test('the page is in the browser’s language; the choice is kept, and findings 
   await page.getByRole('combobox', { name: 'Jazyk' }).selectOption('en');
   await page.getByRole('button', { name: 'Share' }).waitFor();
   assert.match(await findings(), /^Line 1, column/);
+  await page.locator('.drawer .findings small').first().waitFor();
   await view.close();
+});
+
+test('in every language all links, tabs and tools of time are in sight, on a wide screen and a phone', async () => {
+  for (const locale of ['en', 'pt', 'es', 'cs']) {
+    const view = await openPage(browser, `${server.url}/#/scene/solar-system`, { locale, viewport: { width: 1280, height: 800 }, hasTouch: true, remembered: { 'farol.panel': 'view' } });
+    await settled(view);
+    for (const [width, height] of [[1280, 800], [360, 740]]) {
+      await view.page.setViewportSize({ width, height });
+      await settled(view);
+      const cut = await view.page.locator('.head nav, .tabs').evaluateAll((all) => all.filter((one) => one.scrollWidth > one.clientWidth).map((one) => `${one.className || one.tagName}: ${one.scrollWidth} in ${one.clientWidth}`));
+      assert.deepEqual(cut, [], `${locale}, ${width}`);
+      const rows = await view.page.locator('.time-bar .tool').evaluateAll((all) => [...new Set(all.map((one) => one.getBoundingClientRect().bottom))]);
+      assert.equal(rows.length, 1, `${locale}, ${width}: the tools of time end at ${rows}`);
+    }
+    await view.page.evaluate(() => (location.hash = '#/grade'));
+    await view.page.locator('.drops').waitFor();
+    const [wanted, given] = await view.page.locator('.head nav').evaluate((one) => [one.scrollWidth, one.clientWidth]);
+    assert.ok(wanted <= given, `${locale}: where one is marked, the links take ${wanted} of ${given}`);
+    await view.close();
+  }
 });
 
 test('in English no translation is loaded', async () => {

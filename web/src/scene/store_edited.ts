@@ -1,10 +1,11 @@
 // An edited scene becomes a scene of its own on the server: unlisted, with a link to share.
-import { query, request, type SceneFacts } from '../api.ts';
+import { findingsOf, query, request, sentence, type SceneFacts } from '../api.ts';
 import { formatView, scenePlace } from '../router.ts';
 import { bodyOf } from './frame.ts';
 import type { Viewer } from './viewer.ts';
 
-export async function storeEdited(viewer: Viewer): Promise<void> {
+/** Returns why it was not stored; empty: it was, and is opened. */
+export async function storeEdited(viewer: Viewer): Promise<string> {
   try {
     const base: Record<string, string> = viewer.id === null ? {} : { base: viewer.id };
     const response = await request(`v1/scenes?${query(base)}`, {
@@ -16,7 +17,10 @@ export async function storeEdited(viewer: Viewer): Promise<void> {
     };
     viewer.forgetDraft();
     location.hash = scenePlace(scene.id, formatView(view));
+    return '';
   } catch (fault) {
     viewer.report(fault);
+    const [first] = findingsOf(fault);
+    return first ? sentence(first) : String(fault);
   }
 }

@@ -6,7 +6,7 @@ const plain = (text: string): string => text.replaceAll(/&(amp|lt|gt|quot|apos);
 const maxCommentLength = 60; // a longer comment is no title
 
 /** As far as it can be read: the document may have errors anywhere. */
-function titleIn(text: string): string {
+export function titleIn(text: string): string {
   const written = text.replaceAll(/<!--[\s\S]*?(-->|$)/g, '');
   const element = /<title\b[^>]*>([^<]*)/i.exec(written)?.[1] ?? '', attribute = /^\s*(?:<\?[^>]*>\s*)*<\w+\b[^<>]*?\btitle\s*=\s*(["'])([^<>]*?)\1/i.exec(written)?.[2] ?? '';
   return plain(element) || plain(attribute);

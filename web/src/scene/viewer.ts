@@ -17,7 +17,7 @@ import { missingOf, type FileChanges } from './scene_files.ts';
 import { retryAfterS, sceneFaultOf, stateOf, wholeFindings, type Fault } from './state.ts';
 import { cameraOptions, qualityOptions, sizeOptions, type Quality, type StageSize } from './picture_options.ts';
 import { bodyOf, decodeFrame, fetchPicture, newSession, type Frame, type Origin } from './frame.ts';
-import { titleOf } from './title.ts';
+import { titleIn, titleOf } from './title.ts';
 import { t } from '../words.ts';
 
 export interface Hud {
@@ -56,7 +56,7 @@ export class Viewer extends EditedScene {
   readonly reveal = signal<{ line: number; column: number } | null>(null); // a place the editor goes to
   readonly title = computed(() => {
     const facts = this.facts.value, isUnread = facts?.valid === false;
-    if (this.id === null) return facts?.title || (this.loose?.main ?? t('Your scene'));
+    if (this.id === null) return facts?.title || titleIn(this.original.value ?? '') || (this.loose?.main ?? t('Your scene'));
     if (facts === null) return this.id.startsWith('~') ? t('Scene') : titleOf(this.id, '', null);
     return titleOf(this.id, facts.title, isUnread ? this.original.value : null);
   });

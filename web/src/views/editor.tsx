@@ -7,7 +7,7 @@ import type { Viewer } from '../scene/viewer.ts';
 import { storeEdited } from '../scene/store_edited.ts';
 import { entryAround, entryAt, kindOf } from '../scene/tree.ts';
 import { parseXml } from '../scene/xml.ts';
-import { pressable, Tool } from './ui.tsx';
+import { pressable, say, Tool } from './ui.tsx';
 import { compareAddress } from '../router.ts';
 import { panel } from './viewer_page.tsx';
 import { saveBlob } from './save.ts';
@@ -44,6 +44,7 @@ export function Editor({ viewer }: { viewer: Viewer }) {
         if (at !== null && panel.value === 'xml') requestAnimationFrame(() => {
           const roots = parseXml(viewer.text.peek() ?? ''), element = entryAt(roots, viewer.selected.peek());
           if (element && entryAround(roots, editor.cursor()) !== element) editor.select(element.start, element.openEnd);
+          if (element) setCursor(element.start + 1);
         });
       }),
       effect(() => {
@@ -61,8 +62,9 @@ export function Editor({ viewer }: { viewer: Viewer }) {
   }, [viewer, ready]);
   const store = async (): Promise<void> => {
     setStoring(true);
-    await storeEdited(viewer);
+    const why = await storeEdited(viewer);
     setStoring(false);
+    if (why) say(t('Not stored. {why}', { why }));
   };
   const save = (): void => saveBlob(new Blob([viewer.written()], { type: 'application/xml' }), 'scene.xml');
   return (

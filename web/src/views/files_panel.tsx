@@ -74,8 +74,9 @@ function Row({ viewer, file, came }: { viewer: Viewer; file: ListedFile; came: b
   );
 }
 
-function Meshes({ text, own }: { text: string; own: ReadonlySet<string> }) {
-  const names = useMemo(() => meshNames(text).filter((name) => callOf(name) && !own.has(pathFor(name))), [text, own]);
+/** `unknown`: names that no shape has. */
+function Meshes({ text, own, unknown }: { text: string; own: ReadonlySet<string>; unknown: readonly string[] }) {
+  const names = useMemo(() => meshNames(text).filter((name) => callOf(name) && !own.has(pathFor(name)) && !unknown.includes(name)), [text, own, unknown]);
   if (names.length === 0) return null;
   return (
     <Section title={t('Generated meshes ({count})', { count: names.length })}>
@@ -145,7 +146,7 @@ export function FilesPanel({ viewer }: { viewer: Viewer }) {
         </div>
         <p class="note">{t('Drop files here to add them.')} {changes.added.length + changes.removed.length > 0 && t('Changes are kept in this browser until the scene is stored.')}</p>
       </Section>
-      <Meshes text={text} own={own} />
+      <Meshes text={text} own={own} unknown={missing.map(({ name }) => name)} />
     </div>
   );
 }

@@ -51,7 +51,7 @@ function Panels() {
       }}>
         {tab('details', t('Details'))}{tab('rubric', t('Rubric'))}
       </div>
-      <div role="tabpanel" id={`panel-${panel.value}`} aria-labelledby={`tab-${panel.value}`}>
+      <div key={panel.value} role="tabpanel" id={`panel-${panel.value}`} aria-labelledby={`tab-${panel.value}`}>
         {panel.value === 'details' ? <Detail /> : <RubricPanel />}
       </div>
     </div>

@@ -51,7 +51,7 @@ function ColorRow({ edits, component }: { edits: Edits; component: Component }) 
       <input type="color" aria-label={t('{component} colour', { component: name })} value={toHex(color)} onInput={(event) => write(fromHex(event.currentTarget.value))} />
       <div>
         {channels.map((channel, i) => (
-          <Slider key={channel} label={t('{component} {channel}', { component: name, channel: t(channel) })} short={t(channel).charAt(0).toUpperCase()} min={0} max={255} step={1}
+          <Slider key={channel} label={t('{component} {channel}', { component: name, channel: t(channel) })} short={'RGB'.charAt(i)} min={0} max={255} step={1}
             value={Math.round((color[i] as number) * 255)} onInput={(value) => set(i, value)} />
         ))}
       </div>

@@ -52,17 +52,18 @@ function Animation({ viewer }: { viewer: Viewer }) {
 
 /** Who wants a link to edits stores them first: the link of the scene would be without them. */
 function Unstored({ viewer }: { viewer: Viewer }) {
-  const [busy, setBusy] = useState(false);
+  const [busy, setBusy] = useState(false), [why, setWhy] = useState('');
   const store = async (): Promise<void> => {
     setBusy(true);
-    await storeEdited(viewer);
+    setWhy(await storeEdited(viewer));
     setBusy(false);
   };
   return (
     <div class="share-warning" role="note">
       <p>{viewer.id === null ? t('This scene is in this browser only: there is no link to it yet.')
         : t('Your edits are in this browser only. Links and frames show the scene as it is stored, without them.')}</p>
-      <button type="button" class="button primary" {...pressable(!busy, () => void store())}>{busy ? t('Storing…') : t('Store them and get a link')}</button>
+      <button type="button" class="button primary" {...pressable(!busy, () => void store())}>{busy ? t('Storing…') : viewer.id === null ? t('Store it and get a link') : t('Store them and get a link')}</button>
+      {why && <p class="problem" role="alert">{t('Not stored. {why}', { why })}</p>}
     </div>
   );
 }

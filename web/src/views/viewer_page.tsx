@@ -144,7 +144,7 @@ export function ViewerPage({ id, view }: { id: string | null; view: URLSearchPar
   // The thumbnail is of the scene as it is stored, by its own camera.
   const preview = useMemo(() => (id !== null && view.toString() === '' && loadDraft(id) === null ? `${scenePath(id)}/thumbnail` : ''), [viewer]);
   const facts = viewer.facts.value;
-  const title = id === null ? facts?.title || (own?.name ?? t('Your scene')) : viewer.title.value;
+  const named = viewer.title.value, title = own && named === own.loose.main ? own.name : named; // a folder has another name than its scene
   useEffect(() => {
     document.title = `${title} · Farol`;
   }, [title]);

@@ -4,6 +4,15 @@ import { expectedImages, viewImages } from '../../grade/store.ts';
 import type { Grade, View, ViewImages } from '../../grade/types.ts';
 import { msg, number, t } from '../../words.ts';
 
+const cameras: Record<string, string> = { 'own camera': msg('own camera'), 'from the side': msg('from the side'), 'from above': msg('from above') };
+
+/** The views of the usual rubric have names in the reader's language; a rubric's own names stay. */
+function viewName(name: string): string {
+  const [, camera = '', seconds] = /^(.*?)(?: at ([\d.]+) s)?$/.exec(name) ?? [], known = cameras[camera];
+  if (!known) return name;
+  return seconds === undefined ? t(known) : t('{camera} at {seconds} s', { camera: t(known), seconds: number(Number(seconds)) });
+}
+
 interface Loaded {
   expected: (Blob | null)[];
   images: ViewImages[];
@@ -100,7 +109,7 @@ export function Images({ task, resultKey, grade }: { task: string; resultKey: st
     <section class="images" aria-label={t('Images')}>
       <div class="choices" role="group" aria-label={t('View')}>
         {grade.views.map((one, i) => (
-          <button key={one.name} type="button" aria-pressed={i === view} onClick={() => setAt(i)}>{one.name}
+          <button key={one.name} type="button" aria-pressed={i === view} onClick={() => setAt(i)}>{viewName(one.name)}
             {one.difference !== undefined && <span class="note"> {one.difference ? `${percent(one.difference)} %` : t('equal')}</span>}</button>
         ))}
       </div>

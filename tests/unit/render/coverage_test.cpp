@@ -15,6 +15,10 @@ using render::FramePlan;
 
 namespace {
 
+// Without a light models are outlines.
+const std::string kLights =
+    "<lights><light type=\"directional\" dirx=\"1\" diry=\"2\" dirz=\"3\"/></lights>";
+
 std::mt19937 random_(23);  // a fixed seed
 
 double between(double low, double high) {
@@ -36,7 +40,9 @@ std::string worldOf(int spheres, const std::string& background) {
     }
     return "<world" + background +
            "><camera><position x=\"3\" y=\"2\" z=\"9\"/><lookAt x=\"0\" y=\"0\" z=\"0\"/>"
-           "<projection fov=\"60\" near=\"1\" far=\"100\"/></camera><group><models>"
+           "<projection fov=\"60\" near=\"1\" far=\"100\"/></camera>" +
+           kLights +
+           "<group><models>"
            "<model file=\"plane_9_3.3d\"/></models></group>" +
            groups + "</world>";
 }
@@ -146,7 +152,8 @@ TEST_CASE("a model that moves over the image looks as if each frame had its own 
     for (const double distance : {60.0, 30.0, 12.0, 2.0, 9.0, 25.0, 90.0, 90.0, 30.0}) {
         job.xml = "<world><camera><position x=\"0\" y=\"0\" z=\"" + std::to_string(distance) +
                   "\"/><lookAt x=\"" + std::to_string(distance * 0.5) +
-                  "\" y=\"0\" z=\"0\"/></camera><group><models>"
+                  "\" y=\"0\" z=\"0\"/></camera>" + kLights +
+                  "<group><models>"
                   "<model file=\"sphere_1_20_20.3d\"/></models></group></world>";
         image::Image image;
         renderer.draw(job, image);

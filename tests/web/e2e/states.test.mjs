@@ -125,6 +125,29 @@ test('what cannot be stored says why, where it was asked for', async () => {
   await view.close();
 });
 
+test('a part of the page that is on its way has its place, and none where it will lie over the page', async () => {
+  const view = await open('#/scene/good');
+  await settled(view);
+  let go;
+  const isSeen = new Promise((done) => (go = done));
+  await view.page.route(/\/assets\/(help_dialog|grade_page)-/, async (route) => {
+    await isSeen;
+    await route.fallback();
+  });
+  const tools = await view.page.locator('.toolbar').boundingBox();
+  await view.page.getByRole('button', { name: 'Help' }).click();
+  await view.page.locator('.toolbar .lazy').waitFor({ state: 'attached' });
+  assert.ok(!(await view.page.locator('.toolbar .lazy').isVisible()));
+  assert.deepEqual(await view.page.locator('.toolbar').boundingBox(), tools);
+  await view.page.evaluate(() => (location.hash = '#/grade'));
+  await view.page.getByText('Loading…').waitFor();
+  const inset = await view.page.getByText('Loading…').evaluate((one) => Number.parseFloat(getComputedStyle(one).paddingLeft));
+  assert.ok(inset >= 12, `${inset} px from the edge`);
+  go();
+  await view.page.getByRole('button', { name: 'Try an example class' }).waitFor();
+  await view.close();
+});
+
 test('while a scene is drawn for the first time the page says so', async () => {
   const view = await open('#/');
   let release;

@@ -18,6 +18,6 @@ export function lazyView<Props extends object>(load: () => Promise<ComponentType
       const View = loaded as ComponentType<object>;
       return <View {...props} />;
     }
-    return <p class="note">{state === 'failed' ? t('The server did not send this part of the page. Load the page again.') : t('Loading…')}</p>;
+    return <p class={`note lazy ${state}`}>{state === 'failed' ? t('The server did not send this part of the page. Load the page again.') : t('Loading…')}</p>;
   };
 }

@@ -67,14 +67,14 @@ test('a movement while the images are compared changes neither what is compared 
       return plain.apply(this, given);
     };
     window.moved_ = new Promise((done) => (window.go_ = done));
-    return Number(document.querySelector('.compared canvas').dataset.count);
+    return [...document.querySelectorAll('.compared canvas')].map((one) => Number(one.dataset.count));
   });
   const [sent] = await Promise.all([
     view.page.waitForRequest((request) => request.url().endsWith('/v1/compare')),
     (async () => {
       await view.page.getByRole('button', { name: 'Compare what is on show' }).click();
       await view.page.getByRole('application').press('ArrowRight');
-      await view.page.waitForFunction((before) => [...document.querySelectorAll('.compared canvas')].every((one) => Number(one.dataset.count) > before), count + 1);
+      await view.page.waitForFunction((before) => [...document.querySelectorAll('.compared canvas')].every((one, i) => Number(one.dataset.count) > before[i]), count);
       await view.page.evaluate(() => window.go_());
     })(),
   ]);

@@ -160,7 +160,11 @@ export async function settled({ page, underWay, full }) {
       throw fault;
     });
     if (seq !== undefined && underWay.size === 0 && seq === Number(full().at(-1)?.seq)) return;
-    assert.ok(seq !== null && Date.now() < until, `the picture never came to rest: ${[...underWay].map((one) => one.url()).join(' ')}`);
+    if (seq === null || Date.now() >= until) {
+      const shown = await page.evaluate(() => [document.querySelector('.stage-area')?.className, document.querySelector('.stage')?.dataset.rest, document.querySelector('.stage canvas')?.dataset.seq, document.querySelector('.stage-notes')?.textContent].join(', '));
+      const asked = full().slice(-2).map((one) => `${one.method} ${one.seq}`).join(', ');
+      assert.fail(`the picture never came to rest: ${shown}; asked for ${asked}; under way: ${[...underWay].map((one) => one.url()).join(' ')}`);
+    }
     if (underWay.size > 0) await page.waitForTimeout(10);
   }
 }

@@ -1,7 +1,9 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <mutex>
 #include <optional>
+#include <set>
 
 #include "cli/command.h"
 #include "cli/confine.h"
@@ -31,6 +33,58 @@ struct Places {
     std::string stem;                  ///< of the output without folder and ending
     std::vector<std::string> outputs;  ///< the output, a library, numbered images
 };
+
+/// Notes which files are read.
+class NotedAssets final : public scene::Assets {
+  public:
+    explicit NotedAssets(std::shared_ptr<const scene::Assets> assets)
+        : assets_(std::move(assets)) {}
+    std::set<std::string> names() const {
+        const std::lock_guard lock(mutex_);
+        return names_;
+    }
+    std::vector<std::string> list() const override { return assets_->list(); }
+    bool has(const std::string& path) const override { return assets_->has(path); }
+    std::optional<std::string> read(const std::string& path) const override {
+        const std::lock_guard lock(mutex_);
+        names_.insert(path);
+        return assets_->read(path);
+    }
+    std::optional<std::uint64_t> size(const std::string& path) const override {
+        return assets_->size(path);
+    }
+    void prefetch(const std::vector<std::string>& paths) const override {
+        assets_->prefetch(paths);
+    }
+    std::string version(const std::string& path) const override { return assets_->version(path); }
+
+  private:
+    std::shared_ptr<const scene::Assets> assets_;
+    mutable std::mutex mutex_;
+    mutable std::set<std::string> names_;
+};
+
+/// Throws UsageError where one of the files to write is one that the scene reads. Paths are
+/// compared as text: the process that writes cannot look at folders.
+void refuseOwnFiles(const std::set<std::string>& names, const std::filesystem::path& folder,
+                    const std::filesystem::path& output,
+                    const std::vector<interchange::SideFile>& beside) {
+    std::vector<std::filesystem::path> written{output};
+    for (const interchange::SideFile& file : beside)
+        written.push_back(output.parent_path() / file.name);
+    for (const std::string& name : names)
+        for (const std::filesystem::path& path : written)
+            if ((folder / name).lexically_normal() == path)
+                throw UsageError(message<"usage/convert-own">("path"_arg = name));
+}
+
+/// Absolute and without links, also of a file that is not there yet.
+std::filesystem::path plainPath(const std::string& path) {
+    std::error_code none;  // what cannot be resolved stays as it is
+    const std::filesystem::path plain =
+        std::filesystem::weakly_canonical(std::filesystem::absolute(path, none), none);
+    return plain.empty() ? std::filesystem::path(path) : plain;
+}
 
 Places placesOf(const std::string& output, bool hasFilesBeside) {
     const std::filesystem::path path(output);
@@ -73,6 +127,10 @@ int convertScene(const Flags& flags, const std::string& ending, Report& report) 
     render::Job job = openSource(flags.input, flags.assets, flags.strict);
     job.options.timeS = flags.timeS;
     report.setInput(job.name);
+    const auto assets = std::make_shared<NotedAssets>(job.assets);
+    job.assets = assets;
+    const std::filesystem::path folder = plainPath(assetFolder(flags.input, flags.assets)),
+                                output = plainPath(flags.output);
     const Places places = placesOf(flags.output, ending == "obj");
     const Confinement confinement{
         flags.confinement, {assetFolder(flags.input, flags.assets)}, places.outputs};
@@ -82,6 +140,7 @@ int convertScene(const Flags& flags, const std::string& ending, Report& report) 
             ending == "xml"   ? interchange::writeXml(job, form)
             : ending == "obj" ? interchange::writeObj(job, places.stem, interchange::kMaxModelBytes)
                               : interchange::writeGlb(job, interchange::kMaxModelBytes);
+        if (job.archive.empty()) refuseOwnFiles(assets->names(), folder, output, model.beside);
         outputs.write(0, model.bytes);
         writeBeside(model.beside, outputs);
         report.add(model.diagnostics);

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "render/gl/painter_state.h"
+#include "render/plan/cost.h"
 #include "render/plan/messages.h"
 #include "render/plan/passes.h"
 
@@ -329,8 +330,13 @@ void Painter::draw(FramePlan& plan, const OpenTexture& open, image::Image& image
     if (transparent) unpremultiply(image);
     plan.stats.peeledLayers = s.peeledLayers;
     if (s.leftLayersOut)
-        findings.push_back(diagnosticOf(Severity::warning,
-                                        message<"limit.layers">("max"_arg = kMaxPeeledLayers), {}));
+        findings.push_back(diagnosticOf(
+            Severity::warning,
+            message<"limit.layers">(
+                "count"_arg =
+                    std::max(static_cast<int>(deepestSeeThrough(plan)), kMaxPeeledLayers + 1),
+                "max"_arg = kMaxPeeledLayers),
+            {}));
     timings.drawMs += sinceMs(start) - timings.readbackMs;
 }
 

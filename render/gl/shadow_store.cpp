@@ -33,12 +33,12 @@ void ShadowStore::bind(const FramePlan& plan) {
     api_.ActiveTexture(GL_TEXTURE0 + kShadowUnit);
     if (side_ != plan.shadowSide || layers_.size() != plan.shadowMaps.size()) {
         layers_.clear();
+        side_ = 0;            // until there is storage
         depths_ = Texture();  // the old one first: two may not fit
         depths_ = Texture(api_);
-        side_ = plan.shadowSide;
         api_.BindTexture(GL_TEXTURE_2D_ARRAY, depths_.name());
-        api_.TexStorage3D(GL_TEXTURE_2D_ARRAY, 1, GL_DEPTH_COMPONENT32F, side_, side_,
-                          static_cast<GLsizei>(plan.shadowMaps.size()));
+        api_.TexStorage3D(GL_TEXTURE_2D_ARRAY, 1, GL_DEPTH_COMPONENT32F, plan.shadowSide,
+                          plan.shadowSide, static_cast<GLsizei>(plan.shadowMaps.size()));
         const auto set = [&](GLenum name, GLenum value) {
             api_.TexParameteri(GL_TEXTURE_2D_ARRAY, name, static_cast<GLint>(value));
         };
@@ -47,6 +47,8 @@ void ShadowStore::bind(const FramePlan& plan) {
         set(GL_TEXTURE_WRAP_S, GL_CLAMP_TO_BORDER);  // its colour is 0
         set(GL_TEXTURE_WRAP_T, GL_CLAMP_TO_BORDER);
         if (!framebuffer_) framebuffer_ = Framebuffer(api_);
+        throwOnError(api_, "creating shadow maps");
+        side_ = plan.shadowSide;
         layers_.resize(plan.shadowMaps.size());
     }
     api_.BindTexture(GL_TEXTURE_2D_ARRAY, depths_.name());

@@ -14,7 +14,8 @@ class ShadowStore {
     explicit ShadowStore(const Api& api) : api_(api) {}
 
     /// Binds the array for the plan's maps. Drops what it has where
-    /// the maps' size or number is another. Throws std::bad_alloc when GL refuses.
+    /// the maps' size or number is another. Throws as throwOnError when GL refuses, and has no maps
+    /// then.
     void bind(const FramePlan& plan);
     /// True if the layer has the depths of the plan's map already.
     bool has(const FramePlan& plan, std::size_t map) const;

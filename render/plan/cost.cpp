@@ -54,17 +54,6 @@ struct DrawShare {
     double draws = 0.0, outlines = 0.0, shadings = 0.0, peelings = 0.0;
 };
 
-/// Draws of all see-through models by a pass that peels them.
-double drawsOfPeeled(const FramePlan& plan) {
-    SeeThroughSurfaces surfaces(plan.view.size);
-    // Inner sides are items already.
-    for (const DrawItem& item : plan.items)
-        if (item.alpha == image::Alpha::blended)
-            surfaces.add(pixelRect(item.mesh->bounds, glm::dmat4(item.viewFromObject), plan.view),
-                         1.0);
-    return peelsOf(surfaces.deepest());
-}
-
 void addShares(const FramePlan& plan, const Pass& pass, const PassItem& item, double peels,
                std::vector<DrawShare>& shares) {
     const bool isPeeled = item.kind == PassItem::Kind::peeled;
@@ -91,6 +80,10 @@ void addShares(const FramePlan& plan, const Pass& pass, const PassItem& item, do
 
 Message adviceFor(const FramePlan& plan, const FrameCost& cost, int frames) {
     if (frames > 1) return message<"part.lower-frames">();
+    constexpr double kManyLayers = 8.0;  // draws of a peeled model, to a blended one's single draw
+    if (plan.style.transparency == scene::Transparency::exact &&
+        peelsOf(deepestSeeThrough(plan)) > kManyLayers)
+        return message<"part.fewer-see-through">();
     if (cost.geometry > cost.fragments + cost.pixels)
         return plan.style.samples > 4 ? message<"part.lower-aa-or-triangles">()
                                       : message<"part.fewer-triangles">();
@@ -108,6 +101,16 @@ std::string rounded(double coreSeconds) {
 }
 
 }  // namespace
+
+double deepestSeeThrough(const FramePlan& plan) {
+    SeeThroughSurfaces surfaces(plan.view.size);
+    // Inner sides are items already.
+    for (const DrawItem& item : plan.items)
+        if (item.alpha == image::Alpha::blended)
+            surfaces.add(pixelRect(item.mesh->bounds, glm::dmat4(item.viewFromObject), plan.view),
+                         1.0);
+    return surfaces.deepest();
+}
 
 double fragmentCost(const FramePlan& plan, const DrawItem& item) {
     double cost = kFragmentCost;
@@ -141,7 +144,7 @@ FrameCost estimateCost(const FramePlan& plan) {
     for (const Pass& pass : plan.passes)
         for (const PassItem& item : pass.items) {
             if (item.kind == PassItem::Kind::peeled) {
-                if (peels == 0.0) peels = drawsOfPeeled(plan);
+                if (peels == 0.0) peels = peelsOf(deepestSeeThrough(plan));
                 cost.pixels += kPeelSampleCost * peels * pass.target.samples * pass.target.scale *
                                pass.target.scale * pass.target.rows * plan.view.size.x;
             }

@@ -21,6 +21,9 @@ struct FrameCost {
 /// FramePlan::textureAlphas is known.
 FrameCost estimateCost(const FramePlan& plan);
 
+/// See-through surfaces behind each other, about, where they are most.
+double deepestSeeThrough(const FramePlan& plan);
+
 /// Core-seconds to shade a fragment of the item.
 double fragmentCost(const FramePlan& plan, const DrawItem& item);
 /// Core-seconds of the depths alone of a model: `fragments` of all passes together.

@@ -38,9 +38,9 @@ inline constexpr MessageRow kRenderMessages[] = {
      {"12", "comparing images of 4000 x 4000 px", "5"}},
     {"limit.instances/models", "the scene has more than {most} models", {"100000"}},
     {"limit.layers",
-     "more than {max} see-through surfaces are behind each other in a pixel; the farthest are left "
-     "out",
-     {"64"}},
+     "about {count} see-through surfaces are behind each other in a pixel, of which the nearest "
+     "{max} are drawn; use fewer, or transparency=\"on\"",
+     {"200", "64"}},
     {"limit.lights/placed", "the scene has more than {most} lights", {"64"}},
     {"limit.pixels/side",
      "the image is {width} x {height} px; expected at most {most} px a side",
@@ -74,6 +74,8 @@ inline constexpr MessageRow kRenderMessages[] = {
     {"part.lower-aa-or-triangles", "lower aa, or use fewer triangles or models"},
     {"part.lower-frames", "lower frames, width or height"},
     {"part.lower-size", "lower width or height"},
+    {"part.fewer-see-through",
+     "use transparency=\"on\", or fewer see-through models behind each other"},
     {"part.lower-size-or-layers",
      "lower width or height, or use fewer lights or models behind each other"},
     {"part.models-all", "all {count} models are", {"3"}},

@@ -82,6 +82,12 @@ void SceneBuilder::unknownChild(pugi::xml_node child, const ElementSpec& parent)
     }
     std::string suggestion = findings().crowded() ? "" : didYouMean(std::string(name), known);
     if (suggestion.empty()) suggestion = holderOf(name, parent.children);
+    const std::string_view common = commonWord(name);
+    if (suggestion.empty() && common == "shadows") suggestion = "render shadows=\"map\"";
+    if (suggestion.empty() && common == "opacity") {
+        suggestion = holderOf(common, parent.name);
+        if (suggestion.empty()) suggestion = holderOf("A", parent.children);
+    }
     findings().warn(message<"scene.unknown-element">("element"_arg = name, "parent"_arg = inside,
                                                      "suggestion"_arg = uncut(suggestion)),
                     at(child));

@@ -193,6 +193,9 @@ inline constexpr MessageRow kReadMessages[] = {
      "<{element}> has no attribute \"{name}\"; write <{name} R=\"{red}\" G=\"{green}\" "
      "B=\"{blue}\"/> inside it",
      {"color", "diffuse", "255", "136", "0"}},
+    {"scene.unknown-attribute/elsewhere",
+     "<{element}> has no attribute \"{name}\"; write <{suggestion}> in the root element",
+     {"light", "shadows", "render shadows=\"map\"/"}},
     {"scene.unknown-color",
      "unknown colour \"{value}\"; define it in <colors>, or write #rrggbb[ (did you mean "
      "\"{suggestion}\"?)]",

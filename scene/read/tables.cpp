@@ -380,6 +380,16 @@ const AttributeSpec* findAttribute(const ElementSpec& element, std::string_view 
     return nullptr;
 }
 
+std::string_view commonWord(std::string_view word) {
+    constexpr std::string_view kOpacity = "opacity alpha transparency transparent translucency";
+    constexpr std::string_view kShadows =
+        "shadows shadow castShadow castShadows castsShadows receiveShadow receiveShadows";
+    for (const std::string_view words : {kOpacity, kShadows})
+        for (const std::string_view one : split(words))
+            if (sameWord(one, word)) return split(words).front();
+    return word;
+}
+
 std::span<const ElementSpec> elementSpecs() { return kElements; }
 
 std::string_view canonicalWord(const AttributeSpec& row, std::string_view word) {

@@ -44,6 +44,10 @@ const ElementSpec& elementSpec(std::string_view canonical);
 
 const AttributeSpec* findAttribute(const ElementSpec& element, std::string_view name);
 
+/// The word of this language for one that other languages use for see-through models and shadows;
+/// others as they are.
+std::string_view commonWord(std::string_view word);
+
 /// All elements, for suggestions and for the tests of the schema and the docs.
 std::span<const ElementSpec> elementSpecs();
 

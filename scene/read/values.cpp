@@ -75,11 +75,19 @@ class AttributeReader {
   private:
     /// Reports an unknown attribute as an error or a warning, by `unknown`.
     void unknownName(pugi::xml_attribute attribute, Unknown unknown, Values& values) {
-        const std::string hint = suggestion(attribute.name(), attributeNames(spec_), findings_);
+        std::string hint = suggestion(attribute.name(), attributeNames(spec_), findings_);
+        const std::string_view common = commonWord(attribute.name());
+        if (common == "opacity")
+            for (const char* name : {"opacity", "A"})
+                if (hint.empty() && findAttribute(spec_, name) != nullptr) hint = name;
         Message text = message<"scene.unknown-attribute">(
             "name"_arg = attribute.name(), "element"_arg = element_, "suggestion"_arg = hint,
             "known"_arg = hint.empty() ? fewNames() : "");
         if (auto advice = colorAdvice(attribute); advice && hint.empty()) text = *advice;
+        if (common == "shadows" && hint.empty())
+            text = message<"scene.unknown-attribute/elsewhere">(
+                "element"_arg = element_, "name"_arg = attribute.name(),
+                "suggestion"_arg = uncut("render shadows=\"map\"/"));
         if (unknown == Unknown::error) {
             values.damaged = true;
             findings_.error(std::move(text), document_.at(attribute));

@@ -60,6 +60,23 @@ TEST_CASE("a file is not converted onto itself") {
     CHECK(readFile("scene.xml") == kScene);
 }
 
+TEST_CASE("a conversion does not write over a file that the scene reads") {
+    freshFolder();
+    REQUIRE(run("generate box 2 model.obj").status == 0);
+    const std::string mesh = readFile("model.obj");
+    writeFile("scene.xml", R"(<world><lights><light type="directional" dirY="1"/></lights><group>
+        <models><model file="model.obj"/></models></group></world>)");
+    for (const char* output : {"model.obj", "./model.obj"}) {
+        const Outcome outcome = run(std::string("convert scene.xml ") + output);
+        CHECK(outcome.status == 2);
+        CHECK_THAT(outcome.err, Catch::Contains("\"model.obj\" is a file that the scene reads"));
+        CHECK(readFile("model.obj") == mesh);
+    }
+    CHECK_FALSE(exists("model.mtl"));
+    CHECK(run("convert scene.xml other.obj").status == 0);
+    CHECK(run("convert scene.xml other.obj").status == 0);  // its own earlier output
+}
+
 TEST_CASE("wrong names and forms of a conversion are refused") {
     freshFolder();
     writeFile("scene.xml", kScene);

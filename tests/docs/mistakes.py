@@ -70,6 +70,9 @@ TABLES = {
         ("a second camera", 9, 0, '<camera><position x="9" y="9" z="9"/><lookAt x="0" y="0" z="0"/></camera>'),
         ("a second `<transform>`", 17, 0, '<transform><scale x="2" y="2" z="2"/></transform>'),
         ("a second `<translate>`", 15, 0, '<translate x="1" y="0" z="0"/>'),
+        ("a word of another language", 18, 1, '<model file="sphere_1_16_16.3d" transparency="0.5">'),
+        ("an option as an element", 9, 0, "<shadows/>"),
+        ("a lamp that casts", 10, 1, '<light type="point" posX="0" posY="10" posZ="4" castShadows="true"/>'),
         ("a model without a file", 18, 1, '<model name="sphere_1_16_16.3d">'),
     ],
     "Numbers": [

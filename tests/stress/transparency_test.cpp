@@ -170,7 +170,10 @@ TEST_CASE("a hundred panes are added up; of sorted surfaces the nearest 64, with
     const Drawn sorted = drawScene(seenFrom3(panes), {}, with(Transparency::on));
     CHECK_FALSE(sorted.has("limit.layers"));
     const Drawn peeled = drawScene(seenFrom3(panes), {}, with(Transparency::exact));
-    CHECK(peeled.has("limit.layers"));
+    REQUIRE(peeled.has("limit.layers"));
+    CHECK_THAT(peeled.picture.diagnostics.back().message,
+               Catch::Contains("about 100") && Catch::Contains("nearest 64") &&
+                   Catch::Contains("transparency=\"on\""));
     CHECK(peeled.picture.stats.peeledLayers == 64);
     // The sum of a geometric series, of 64 panes.
     double red = 0.0, blue = 0.0, left = 1.0;

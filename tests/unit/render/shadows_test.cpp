@@ -308,6 +308,33 @@ TEST_CASE("maps are kept while nothing that they show changes, with the same ima
     CHECK(painter.shadowMapsDrawn() == 2);
 }
 
+TEST_CASE("maps that the GL refuses are reported, and the next image has its maps") {
+    scene::Scene scene =
+        scene::read(floorWith(at(R"(x="2" y="2")", kBall)), {}, scene::BundleAssets()).scene;
+    Diagnostics findings;
+    generator::resolve(scene, scene::BundleAssets(), findings);
+    render::MeshLibrary meshes(std::size_t{64} << 20);
+    render::gl::Painter painter(render::gl::createContext(render::GlSource::automatic));
+    const auto paint = [&](render::gl::Painter& by, int side) {
+        render::PictureOptions options;
+        options.width = options.height = kSide;
+        render::FramePlan plan = support::planScene(scene, options, scene::BundleAssets(), meshes);
+        if (side > 0) plan.shadowSide = side;
+        image::Image image;
+        render::gl::Painter::Timings timings;
+        Diagnostics notes;
+        by.draw(
+            plan, [](const render::TextureRef&) { return render::UndecodedTexture(); }, image,
+            timings, notes);
+        return image;
+    };
+    const int tooLarge = 4 * painter.facts().maxTargetSide;
+    for (int i = 0; i < 2; ++i)  // a failed one leaves no map
+        CHECK_THROWS_WITH(paint(painter, tooLarge), Catch::Contains("shadow maps"));
+    render::gl::Painter fresh(render::gl::createContext(render::GlSource::automatic));
+    CHECK(paint(painter, 0) == paint(fresh, 0));
+}
+
 TEST_CASE("the estimates of cost and time count shadows") {
     const scene::Scene scene = [] {
         scene::Scene read =

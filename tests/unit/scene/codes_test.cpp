@@ -353,6 +353,30 @@ TEST_CASE("unknown names are reported with the nearest known one") {
     CHECK_THAT(
         message(scene2017("<models><model file=\"a\" rand=\"-1\"/></models>"), "scene.range"),
         Catch::EndsWith("0 to 100000"));
+    // Words of other languages.
+    const auto model = [](const std::string& attributes, const std::string& children) {
+        return world("<group><models><model command=\"box 1\" " + attributes + ">" + children +
+                     "</model></models></group>");
+    };
+    for (const char* word : {"alpha", "transparency", "transparent"}) {
+        CAPTURE(word);
+        const std::string name(word);
+        CHECK_THAT(message(model(name + "=\"0.5\"", ""), "scene.unknown-attribute"),
+                   Catch::EndsWith("did you mean \"opacity\"?"));
+        CHECK_THAT(message(model("", "<" + name + "/>"), "scene.unknown-element"),
+                   Catch::EndsWith("did you mean <model opacity=\"...\">?"));
+        CHECK_THAT(message(model("", "<color><" + name + "/></color>"), "scene.unknown-element"),
+                   Catch::EndsWith("did you mean <diffuse A=\"...\">?"));
+    }
+    for (const std::string& xml :
+         {world("<group><shadows/></group>"), model("", "<shadow/>"),
+          world("<lights><castShadows on=\"true\"/></lights>"), camera("<shadows/>")})
+        CHECK_THAT(message(xml, "scene.unknown-element"),
+                   Catch::EndsWith("did you mean <render shadows=\"map\">?"));
+    CHECK_THAT(message(world("<group/><shadows/>"), "scene.unknown-element"),
+               Catch::EndsWith("did you mean <render shadows=\"...\">?"));
+    CHECK_THAT(message(light("type=\"point\" castShadows=\"true\""), "scene.unknown-attribute"),
+               Catch::EndsWith("write <render shadows=\"map\"/> in the root element"));
     // A letter is near every other letter: that is no help.
     CHECK_THAT(message(light("type=\"point\" R=\"1\""), "scene.unknown-attribute"),
                !Catch::Contains("did you mean"));

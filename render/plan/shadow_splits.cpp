@@ -298,7 +298,8 @@ std::vector<std::vector<PlannedShadowMap>> splitMaps(const std::vector<WideLight
         if (count + static_cast<int>(lights.size()) * (each - 1) > kMaxShadowMaps) break;
         double most = 0.0;
         for (const WideLight& light : lights) {
-            const double pixels = light.depths.leastPixels(sideWith(each), each, kWanted, light.pixels);
+            const double pixels =
+                light.depths.leastPixels(sideWith(each), each, kWanted, light.pixels);
             most = std::max(most, pixels > 0.0 ? pixels : light.pixels);
         }
         if (most > kGain * least) continue;

@@ -227,6 +227,17 @@ test('the focus is never lost: closed dialogs, panels and notes give it back', a
   await tabTo('button', 'Close');
   await press('Enter');
   await isOn('application', /^Two boxes/);
+  // Asked for again before the browser reports that it is closed.
+  await press('?');
+  await page.locator('dialog.help').getByRole('button', { name: 'Close' }).evaluate(async (button) => {
+    button.click();
+    for (let i = 0; i < 20; ++i) await null; // the page draws itself meanwhile
+    document.body.dispatchEvent(new KeyboardEvent('keydown', { key: '?', bubbles: true }));
+    await new Promise((done) => setTimeout(done, 0));
+  });
+  await page.locator('dialog.help').waitFor();
+  await press('Escape');
+  await isOn('application', /^Two boxes/);
   // The tour: each step has the focus, and its end gives it to the image.
   await press('?');
   await page.locator('dialog.help').waitFor();

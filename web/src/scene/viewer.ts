@@ -458,6 +458,14 @@ export class Viewer extends EditedScene {
 
   private keepLink(): void {
     clearTimeout(this.linkTimer);
-    this.linkTimer = setTimeout(() => replaceAddress(this.link()), 200);
+    this.linkTimer = setTimeout(() => this.flushLink(), 200);
+  }
+
+  /** The address gets the view as it is now, where that was about to happen. */
+  flushLink(): void {
+    if (this.linkTimer === undefined) return;
+    clearTimeout(this.linkTimer);
+    this.linkTimer = undefined;
+    replaceAddress(this.link());
   }
 }

@@ -47,16 +47,24 @@ function Tour() {
 function Keys() {
   const dialog = useRef<HTMLDialogElement>(null);
   useEffect(() => dialog.current?.showModal(), []);
-  const close = (): void => void (helpShown.value = false);
+  // The browser's event comes later, when the keys may have been asked for again.
+  const close = (): void => {
+    dialog.current?.close();
+    helpShown.value = false;
+  };
+  const cancel = (event: Event): void => {
+    event.preventDefault();
+    close();
+  };
   return (
-    <dialog ref={dialog} class="help" aria-labelledby="help-title" onClose={close}>
+    <dialog ref={dialog} class="help" aria-labelledby="help-title" onCancel={cancel} onClose={(event) => event.currentTarget.isConnected && close()}>
       <div class="help-head">
         <h2 id="help-title">{t('Keys')}</h2>
         <button type="button" class="button small" onClick={() => {
-          dialog.current?.close();
+          close();
           step.value = 0;
         }}>{t('Short tour')}</button>
-        <Tool icon="close" label={t('Close')} onClick={() => dialog.current?.close()} />
+        <Tool icon="close" label={t('Close')} onClick={close} />
       </div>
       <dl>
         {helpKeys.map(([keys, text]) => (

@@ -107,7 +107,10 @@ export function ViewerPage({ id, view }: { id: string | null; view: URLSearchPar
       openPanel('xml');
       viewer.reveal.value = { line, column: 1 };
     }
-    const keep = (): void => viewer.flushDraft();
+    const keep = (): void => {
+      viewer.flushDraft();
+      viewer.flushLink();
+    };
     addEventListener('pagehide', keep);
     const historyKeys = (event: KeyboardEvent): void => {
       const isInField = (event.composedPath()[0] as Element).matches('input, textarea, select, [contenteditable=true]');

@@ -178,7 +178,8 @@ TEST_CASE("a scene that wants too much memory fails alone") {
     WorkerPool pool(tight, quiet());
     render::Job hog = boxJob();
     hog.options.width = hog.options.height = 4096;
-    hog.options.samples = 4;  // 64 bytes a pixel and more
+    hog.options.samples = 4;  // 64 bytes a pixel and more, where models are
+    hog.options.fovDeg = 10;  // of the box alone
     const std::string code = codeOf([&] { pool.run<RenderTask>({hog}); });
     INFO(code);
     CHECK((code == "limit.memory" || code == "worker.crashed"));

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "render/plan/polygon.h"
+
 namespace farol::render {
 namespace {
 
@@ -13,11 +15,8 @@ constexpr double kLarge = 0.25;
 constexpr int kMaxLarge = 8;
 constexpr std::size_t kMaxConvexTriangles = 64;
 
-struct Plane {
-    glm::dvec3 normal;
-    double offset;       ///< before it: dot(normal, p) + offset > 0
+struct Plane : ClipPlane {
     double slack = 0.0;  ///< rounding of its places along the normal, world units
-    double distance(const glm::dvec3& point) const { return glm::dot(normal, point) + offset; }
 };
 
 bool isSeenThrough(const scene::Model& model) {
@@ -64,7 +63,7 @@ std::vector<Plane> facesOf(const Instance& instance) {
         normal *= (isMirrored ? -1.0 : 1.0) / length;
         const double slack = roundingOf(normal, glm::dmat3(instance.worldFromObject), most,
                                         glm::dvec3(instance.worldFromObject[3]));
-        const Plane plane{normal, -glm::dot(normal, a), slack};
+        const Plane plane{{normal, -glm::dot(normal, a)}, slack};
         bool isHull = true, isFlat = true;
         for (const glm::dvec3& place : places) {
             isHull &= plane.distance(place) <= slack;
@@ -96,22 +95,6 @@ bool standsBehind(const InstanceList& list, const std::vector<CastingBox>& boxes
     return false;
 }
 
-using Polygon = std::vector<glm::dvec3>;
-
-/// The part of a convex polygon before a plane.
-Polygon cut(const Polygon& polygon, const Plane& plane) {
-    Polygon out;
-    for (std::size_t i = 0; i < polygon.size(); ++i) {
-        const glm::dvec3& a = polygon[i];
-        const glm::dvec3& b = polygon[(i + 1) % polygon.size()];
-        const double before = plane.distance(a), after = plane.distance(b);
-        if (before >= 0.0) out.push_back(a);
-        if ((before >= 0.0) != (after >= 0.0))
-            out.push_back(a + (b - a) * (before / (before - after)));
-    }
-    return out;
-}
-
 /// Six corners' quads of a box or a frustum, whose corner i has the bits of its three sides.
 constexpr std::array<std::array<int, 4>, 6> kQuads{
     {{0, 1, 3, 2}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 3, 7, 5}}};
@@ -129,7 +112,7 @@ std::vector<Plane> planesOf(const std::array<glm::dvec3, 8>& corners) {
         const double length = glm::length(normal);
         if (!(length > 0.0)) continue;  // a flat box
         normal /= length;
-        Plane plane{normal, -glm::dot(normal, 0.25 * (at(0) + at(1) + at(2) + at(3)))};
+        Plane plane{{normal, -glm::dot(normal, 0.25 * (at(0) + at(1) + at(2) + at(3)))}};
         if (plane.distance(middle) < 0.0) plane = {-plane.normal, -plane.offset};
         planes.push_back(plane);
     }
@@ -141,7 +124,7 @@ void addCut(const std::array<glm::dvec3, 8>& corners, const std::vector<Plane>& 
     for (const auto& quad : kQuads) {
         Polygon polygon;
         for (const int i : quad) polygon.push_back(corners[static_cast<std::size_t>(i)]);
-        for (const Plane& plane : planes) polygon = cut(polygon, plane);
+        for (const Plane& plane : planes) polygon = cutPolygon(polygon, plane);
         out.insert(out.end(), polygon.begin(), polygon.end());
     }
 }

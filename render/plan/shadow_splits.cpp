@@ -73,19 +73,6 @@ double LitDepths::topOf(std::size_t bin) const {
     return view_.near * std::exp2(static_cast<double>(bin + 1) / kBinsPerOctave);
 }
 
-LitDepths::Polygon LitDepths::cut(const Polygon& polygon, const Plane& plane) {
-    Polygon out;
-    for (std::size_t i = 0; i < polygon.size(); ++i) {
-        const glm::dvec3& a = polygon[i];
-        const glm::dvec3& b = polygon[(i + 1) % polygon.size()];
-        const double before = plane.distance(a), after = plane.distance(b);
-        if (before >= 0.0) out.push_back(a);
-        if ((before >= 0.0) != (after >= 0.0))
-            out.push_back(a + (b - a) * (before / (before - after)));
-    }
-    return out;
-}
-
 void LitDepths::addTo(std::size_t index, const Polygon& places, double nearest) {
     if (places.empty()) return;
     if (bins_.size() <= index) bins_.resize(index + 1);
@@ -102,7 +89,7 @@ void LitDepths::addPolygon(Polygon polygon, std::size_t planes) {
     for (std::size_t i = 0; i < planes && !polygon.empty(); ++i) {
         const auto isBefore = [&](const glm::dvec3& at) { return planes_[i].distance(at) >= 0.0; };
         if (!std::all_of(polygon.begin(), polygon.end(), isBefore))
-            polygon = cut(polygon, planes_[i]);
+            polygon = cutPolygon(polygon, planes_[i]);
     }
     if (polygon.empty()) return;
     double nearest = 1e300, farthest = 0.0;
@@ -114,8 +101,8 @@ void LitDepths::addPolygon(Polygon polygon, std::size_t planes) {
     for (std::size_t bin = binOf(nearest); !polygon.empty(); ++bin) {
         const double top = topOf(bin);
         if (farthest <= top) return addTo(bin, polygon, nearest);
-        addTo(bin, cut(polygon, {{0.0, 0.0, 1.0}, top}), nearest);
-        polygon = cut(polygon, {{0.0, 0.0, -1.0}, -top});
+        addTo(bin, cutPolygon(polygon, {{0.0, 0.0, 1.0}, top}), nearest);
+        polygon = cutPolygon(polygon, {{0.0, 0.0, -1.0}, -top});
         nearest = top;
     }
 }
@@ -149,7 +136,7 @@ void LitDepths::addBox(const std::array<glm::dvec3, 8>& corners) {
                 (glm::dot(glm::cross(corners[wall[1]] - a, corners[wall[3]] - a), middle - a) < 0.0
                      ? -1.0
                      : 1.0);
-            polygon = cut(polygon, {normal, -glm::dot(normal, a)});
+            polygon = cutPolygon(polygon, {normal, -glm::dot(normal, a)});
         }
         addPolygon(std::move(polygon), 0);
     }
@@ -185,7 +172,7 @@ void LitDepths::add(const Instance& instance, const CastingBox& casting) {
         farthest = std::max(farthest, -corners[i].z);
     }
     bool isInside = true;
-    for (const Plane& plane : planes_) {
+    for (const ClipPlane& plane : planes_) {
         const auto before =
             std::count_if(corners.begin(), corners.end(),
                           [&](const glm::dvec3& corner) { return plane.distance(corner) >= 0.0; });

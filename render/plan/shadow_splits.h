@@ -5,6 +5,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "render/plan/polygon.h"
 #include "render/plan/shadow_bounds.h"
 #include "render/plan/shadow_maps.h"
 
@@ -37,14 +38,6 @@ class LitDepths {
         Box content;           ///< across, up and away in the slices' light space
         double nearest = 0.0;  ///< depth in the view
     };
-    struct Plane {
-        glm::dvec3 normal{0.0};
-        double offset = 0.0;
-        double distance(const glm::dvec3& at) const { return glm::dot(normal, at) + offset; }
-    };
-    using Polygon = std::vector<glm::dvec3>;  ///< eye space
-
-    static Polygon cut(const Polygon& polygon, const Plane& plane);
     void setPlanes(const LightView& map);
     void add(const Instance& instance, const CastingBox& casting);
     void addBox(const std::array<glm::dvec3, 8>& corners);
@@ -57,10 +50,10 @@ class LitDepths {
     double texelOf(const Box& content, int side) const;
 
     const ViewTransform& view_;
-    glm::dmat3 rotation_{1.0};      ///< lightFromWorld of the slices
-    glm::dmat3 lightFromEye_{1.0};  ///< likewise
-    std::array<Plane, 10> planes_;  ///< of the view, then of the light's map, eye space
-    std::vector<Bin> bins_;         ///< by steps of depth
+    glm::dmat3 rotation_{1.0};          ///< lightFromWorld of the slices
+    glm::dmat3 lightFromEye_{1.0};      ///< likewise
+    std::array<ClipPlane, 10> planes_;  ///< of the view, then of the light's map, eye space
+    std::vector<Bin> bins_;             ///< by steps of depth
 };
 
 /// A directional light whose map is too coarse.
